@@ -1,0 +1,1 @@
+#include "onmesh/half_edge_mesh.h"

@@ -1,0 +1,1 @@
+#include "onmesh/kernel.h"

@@ -1,0 +1,1 @@
+#include "onmesh/node_mesh.h"

@@ -1,0 +1,38 @@
+// The nodes that distances are computed between: a refined intrinsic triangulation as flat arrays.
+#pragma once
+
+#include <vector>
+
+#include "onmesh/triangle_mesh.h"
+
+namespace onmesh {
+
+/// A triangle complex given by its edge lengths. Two faces may share all their nodes, and a face may
+/// have one node twice (multi-edges and self-edges of intrinsic triangulations): never look a face or
+/// an edge up by its nodes. Non-manifold complexes are allowed.
+struct NodeMesh {
+  std::vector<SurfacePoint> nodes;              ///< where each node lies on the input mesh
+  std::vector<std::array<Index, 3>> faces;
+  std::vector<std::array<double, 3>> lengths;   ///< lengths[f][k]: from corner k to corner (k+1)%3
+  std::vector<Index> node_offsets, node_faces;  ///< faces around each node (CSR), ascending
+
+  /// Fill node_offsets and node_faces from faces.
+  void build_incidence();
+  double longest_edge() const;
+  double face_area(Index face) const;
+};
+
+/// A point in a node face.
+struct NodePoint {
+  Index face = kNone;
+  Vec3 barycentric = Vec3::Zero();
+};
+
+/// The mesh's own vertices and faces as nodes, unrefined.
+NodeMesh make_node_mesh(const TriangleMesh& mesh);
+
+/// Area of a triangle from its side lengths without cancellation (Kahan). 0 if they violate the
+/// triangle inequality.
+double triangle_area(double a, double b, double c);
+
+}  // namespace onmesh

@@ -1,0 +1,31 @@
+// Where an input face meets the node faces: the common refinement, one input face at a time.
+#pragma once
+
+#include <vector>
+
+#include "onmesh/node_mesh.h"
+
+namespace onmesh {
+
+/// A node face that overlaps an input face. On the overlap, barycentric coordinates in the node face
+/// are to_node * (barycentric coordinates in the input face), an isometry laid out in the plane.
+struct OverlayPiece {
+  Index node_face = kNone;
+  Eigen::Matrix3d to_node;
+};
+
+struct Overlay {
+  std::vector<Index> face_offsets;  ///< input faces + 1
+  std::vector<OverlayPiece> pieces;
+
+  /// The point in the piece that holds it (the largest least coordinate wins; clamped to the face).
+  NodePoint locate(const SurfacePoint& point) const;
+};
+
+/// A node mesh made from an input mesh, with the way from one to the other.
+struct NodeSurface {
+  NodeMesh nodes;
+  Overlay overlay;
+};
+
+}  // namespace onmesh

@@ -1,0 +1,25 @@
+// Writing tables of points and faces as PLY, for stage files that other programs open.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "onmesh/types.h"
+
+namespace onmesh {
+
+/// One vertex property of a PLY file: a name and a value per vertex, written as double or int.
+struct PlyColumn {
+  std::string name;
+  std::vector<double> values;
+};
+
+/// Write binary little-endian PLY, atomically (temporary file beside the target, then rename).
+/// \pre all columns have the same length; face indices are within it
+/// \throw FileError
+void write_ply(const std::filesystem::path& path, const std::vector<PlyColumn>& columns,
+               const std::vector<std::array<Index, 3>>& faces = {},
+               const std::vector<std::string>& comments = {});
+
+}  // namespace onmesh

@@ -1,0 +1,30 @@
+// Closest points on a mesh (CGAL AABB tree).
+#pragma once
+
+#include <memory>
+
+#include "onmesh/triangle_mesh.h"
+
+namespace onmesh {
+
+/// Precomputes a tree over the mesh's faces; queries are const and may run in parallel.
+class Projection {
+ public:
+  /// \pre the mesh has a face with area; faces without area are left out
+  explicit Projection(const TriangleMesh& mesh);
+  ~Projection();
+  Projection(Projection&&) noexcept;
+  Projection& operator=(Projection&&) noexcept;
+
+  /// Closest point of the surface; the lowest face index among equally close faces.
+  SurfacePoint closest(const Vec3& point) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+/// Barycentric coordinates of the point of the triangle closest to p.
+Vec3 closest_barycentric(const std::array<Vec3, 3>& triangle, const Vec3& p);
+
+}  // namespace onmesh

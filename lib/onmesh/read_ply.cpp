@@ -1,0 +1,1 @@
+#include "onmesh/mesh_io.h"

@@ -1,0 +1,28 @@
+// Refinement of a mesh into nodes: intrinsic Delaunay refinement to a graded size.
+#pragma once
+
+#include "onmesh/half_edge_mesh.h"
+#include "onmesh/overlay.h"
+
+namespace onmesh {
+
+struct RefineOptions {
+  double spacing = 0;            ///< node spacing where the surface is smooth, mesh units, > 0
+  double finest = 0;             ///< spacing at cones, creases and reflex corners, (0, spacing]; 0 = spacing / 4
+  double growth = 0.35;          ///< how fast the spacing grows away from them, per unit of distance
+  double min_angle_degrees = 25; ///< Delaunay refinement's angle bound, [0, 30]
+  Index max_nodes = 200'000'000; ///< stop with an InputError beyond
+};
+
+struct RefineReport {
+  Index input_vertices = 0, nodes = 0, faces = 0;
+  Index flips = 0, insertions = 0;
+  double smallest_angle_degrees = 0;  ///< over faces without a vertex that forces it
+};
+
+/// Intrinsic Delaunay refinement of the mesh (Sharp, Soliman & Crane 2019, section 4.2; Chew 1993).
+/// Original vertices stay nodes, with the same indices.
+NodeSurface refine(const TriangleMesh& mesh, const HalfEdgeMesh& half_edges, const RefineOptions& options,
+                   RefineReport* report = nullptr);
+
+}  // namespace onmesh

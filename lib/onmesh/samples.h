@@ -1,0 +1,33 @@
+// Samples sorted into node faces: what the kernel sums over, and where it writes.
+#pragma once
+
+#include <vector>
+
+#include "onmesh/overlay.h"
+#include "onmesh/texel_map.h"
+
+namespace onmesh {
+
+/// A sample in a node face with barycentric coordinates (1 - b1 - b2, b1, b2).
+struct Sample {
+  Index texel = 0;  ///< whose colour it carries
+  float b1 = 0, b2 = 0;
+  float area = 0;   ///< surface area it stands for
+};
+
+/// Samples of all node faces; those of face f are [face_offsets[f], face_offsets[f + 1]).
+struct Samples {
+  std::vector<Index> face_offsets;
+  std::vector<Sample> samples;
+};
+
+/// Texel quadrature: every claim of the map is one sample, within a face in the order of input faces
+/// and texels.
+Samples texel_samples(const TexelMap& map, const NodeSurface& surface);
+
+/// Equal-area samples at surface points, with the colour of the texel whose square holds their UV.
+/// \param area what each sample stands for
+Samples point_samples(const TriangleMesh& mesh, const TexelMap& map, const NodeSurface& surface,
+                      const std::vector<SurfacePoint>& points, double area);
+
+}  // namespace onmesh

@@ -1,0 +1,1 @@
+#include "onmesh/texel_map.h"

@@ -1,0 +1,69 @@
+// Which texel lies where on the surface: rasterisation of the UV triangles.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "onmesh/triangle_mesh.h"
+
+namespace onmesh {
+
+/// How UVs outside [0,1] are read.
+enum class Wrap { repeat, clamp };
+
+enum class Coverage : std::uint8_t {
+  none,     ///< no chart meets the texel's square
+  touched,  ///< a chart meets the square but not the centre: padding colour, filled as gutter
+  covered,  ///< sample and target
+};
+
+/// A texel claimed by a face: unwrapped column and row (row 0 on top, may be negative or beyond the
+/// image where UVs leave [0,1]).
+struct TexelClaim {
+  std::int32_t x = 0, y = 0;
+};
+
+/// Per input face, the texels whose centre lies inside or on its UV triangle. A centre on an edge
+/// shared by two faces of one chart belongs to the lowest face index; a chart without any centre
+/// claims the one texel it overlaps most (with the barycentric coordinates of the point of the chart
+/// closest to that centre).
+class TexelMap {
+ public:
+  int width = 0, height = 0;
+  Wrap wrap = Wrap::repeat;
+  std::vector<Index> face_offsets;     ///< faces + 1, into claims
+  std::vector<TexelClaim> claims;
+  std::vector<double> texel_area;      ///< per face: surface area of one whole texel; 0 = no samples
+  std::vector<Coverage> coverage;      ///< width * height
+  std::vector<Index> chart_of_face;    ///< chart number, kNone = not rasterised
+  Index charts = 0;
+
+  /// Texel index (row * width + column) of a claim, wrapped into the image.
+  Index texel(const TexelClaim& claim) const;
+  /// Barycentric coordinates of the claim's centre in its face, clamped to the face.
+  Vec3 barycentric(Index face, const TexelClaim& claim) const;
+  /// Map from pixel coordinates (x right, y down, texel centres at +.5) to the face's barycentric
+  /// coordinates: columns are d/dx, d/dy and the value at (0,0). Not clamped.
+  const Eigen::Matrix3d& to_barycentric(Index face) const { return to_barycentric_[face]; }
+
+  /// Texels claimed more than once, ascending.
+  std::vector<Index> overlapped() const;
+  /// Median over claims of the square root of the texel's surface area: the unit "tx".
+  double median_texel_size() const;
+
+  std::vector<Eigen::Matrix3d> to_barycentric_;
+};
+
+struct TexelMapOptions {
+  Wrap wrap = Wrap::repeat;
+  std::vector<bool> faces;  ///< faces that carry the texture; empty = all with UVs
+};
+
+/// Texel (i, j) of a W x H image has its centre at u = (i + .5) / W, v = 1 - (j + .5) / H.
+/// Faces without UVs, with a zero-area UV triangle or without surface area claim nothing.
+/// \pre mesh is welded; width, height > 0
+/// \throw InputError if a face's UVs span more than 2^14 tiles
+TexelMap make_texel_map(const TriangleMesh& mesh, int width, int height, const TexelMapOptions& options = {});
+
+}  // namespace onmesh

@@ -1,0 +1,1 @@
+#include "onmesh/triangle_mesh.h"

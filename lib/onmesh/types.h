@@ -1,0 +1,25 @@
+// Basic types shared by every stage.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+namespace onmesh {
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+
+/// Index of a vertex, face, node or texel.
+using Index = std::uint32_t;
+
+/// "No such element".
+inline constexpr Index kNone = 0xffffffffU;
+
+/// A point on a triangle mesh: a face and barycentric coordinates that sum to 1.
+struct SurfacePoint {
+  Index face = kNone;
+  Vec3 barycentric = Vec3::Zero();
+};
+
+}  // namespace onmesh
