@@ -15,6 +15,18 @@ using Corners = std::array<Vec2, 3>;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
+struct Circle {
+  Vec2 centre;
+  double radius;
+};
+
+Circle incircle(const Corners& at) {
+  const double a = (at[2] - at[1]).norm(), b = (at[0] - at[2]).norm(), c = (at[1] - at[0]).norm();
+  const double perimeter = a + b + c;
+  return {(a * at[0] + b * at[1] + c * at[2]) / perimeter,
+          std::abs(cross(at[1] - at[0], at[2] - at[0])) / perimeter};
+}
+
 // Lays out the intrinsic faces over one input face after the other.
 class Layouter {
  public:
@@ -27,7 +39,8 @@ class Layouter {
     placed_.clear();
     margin_ = 1e-8 * smallest_altitude();
     start();
-    for (std::size_t i = 0; i < placed_.size(); ++i) {
+    // The bound only matters where rounding has the better of a face (heights of 1e-8 its length).
+    for (std::size_t i = 0; i < std::min(placed_.size(), 64 + 4 * newest_.size()); ++i) {
       for (Index k = 0; k < 3; ++k) cross_edge(i, k);
     }
     for (const Placed& p : placed_) {
@@ -117,11 +130,10 @@ class Layouter {
   void place(Placed p) {
     Seen& seen = newest_[p.face];
     if (seen.input_face == face_) {
-      const double tolerance = 1e-6 * (p.at[1] - p.at[0]).norm();
+      // Two placements side by side have their incircles apart.
+      const Circle circle = incircle(p.at);
       for (Index i = seen.placed; i != kNone; i = placed_[i].older) {
-        if ((placed_[i].at[0] - p.at[0]).norm() < tolerance &&
-            (placed_[i].at[1] - p.at[1]).norm() < tolerance)
-          return;
+        if ((incircle(placed_[i].at).centre - circle.centre).norm() <= circle.radius) return;
       }
       p.older = seen.placed;
     }

@@ -19,6 +19,9 @@ constexpr double kCircumradiusPerSpacing = 0.7;
 // between boundary edges cannot make the refinement go on for ever.
 constexpr double kShortestBoundaryEdge = 0.01;
 
+// Thin faces whose circumradius is below this share of the wanted spacing stay: features of the
+// input that are so much finer than the filter do not deserve nodes.
+constexpr double kFinestCircumradius = 1e-3;
 // A circumcentre whose barycentric coordinate is below this goes onto the edge.
 constexpr double kOnEdge = 1e-3;
 
@@ -129,6 +132,7 @@ class Refiner {
     const HalfEdges& e = t_.edges();
     const double r = circumradius(f);
     if (too_large(f, r)) return r;
+    if (r < kFinestCircumradius * spacing_[e.tail[3 * f]]) return 0;
     const double shortest = std::min({e.length[3 * f], e.length[3 * f + 1], e.length[3 * f + 2]});
     return shortest < 2 * r * sine_ && !forced(f) ? r : 0;
   }
