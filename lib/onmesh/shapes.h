@@ -8,10 +8,11 @@
 
 namespace onmesh {
 
-// Every shape comes welded, wound counter-clockwise seen from outside (open sheets: from +z or the
-// side named), with an atlas whose charts keep at least 4 texels of distance from each other and,
-// unless they fill [0,1]^2, from the image's border, at 256 x 256 texels. `n`, `nx`, `ny` are
-// numbers of segments per side. Parameters outside the domain given with each throw UsageError.
+// Every shape comes welded, wound counter-clockwise seen from outside (open sheets: from +z, the
+// U-sheet from above its lower leaf), with an atlas whose charts keep at least 4 texels of distance
+// from each other and, unless they fill [0,1]^2, from the image's border, at 256 x 256 texels. `n`,
+// `nx`, `ny` are numbers of segments per side. Parameters outside the domain given with each throw
+// UsageError.
 
 /// Distance between charts, and between a chart and the border where it keeps one, in UVs.
 inline constexpr double kChartMargin = 1.0 / 64;
@@ -65,9 +66,9 @@ double cylinder_circumference(int n, double radius);
 /// z = a (x^2 - y^2) over [-1,1]^2; UVs fill [0,1]^2.
 TriangleMesh make_saddle(int n, double a = 0.5);
 
-/// A smooth bumpy closed surface: the icosphere with its atlas, displaced along its rays by eight
+/// A smooth bumpy closed surface: the icosphere with its atlas, displaced along its rays by five
 /// seeded low-frequency waves, at most by `amplitude` in [0, 0.9].
-TriangleMesh make_blob(int levels, std::uint64_t seed, double amplitude = 0.25);
+TriangleMesh make_blob(int levels, std::uint64_t seed, double amplitude = 0.45);
 
 /// Not manifold: three pages of size 1 x 1.4 that share their spine (on the y axis), fanned out by
 /// `angle_degrees` in (0, 180) from page to page. One rectangular chart per page.

@@ -108,13 +108,13 @@ TriangleMesh make_blob(int levels, std::uint64_t seed, double amplitude) {
   if (!(amplitude >= 0 && amplitude <= 0.9))
     throw UsageError("blob: amplitude must be between 0 and 0.9");
   TriangleMesh mesh = make_sphere(levels);
-  constexpr int kWaves = 8;
+  constexpr int kWaves = 5;
   Vec3 direction[kWaves];
   double phase[kWaves];
   for (unsigned w = 0; w < kWaves; ++w) {
     Vec3 d;
     for (unsigned c = 0; c < 3; ++c) d[c] = 2 * hash_unit(seed, w, c) - 1;
-    // Between two and five radians per unit length: one to two bumps across the surface.
+    // Two to five radians per unit length: one to two bumps across the surface.
     direction[w] = (2 + 3 * hash_unit(seed, w, 3)) * d.normalized();
     phase[w] = 2 * std::numbers::pi * hash_unit(seed, w, 4);
   }
