@@ -52,11 +52,13 @@ class PointGrid {
       c[std::size_t(k)] = std::int64_t(std::floor((p[k] - origin_[k]) / cell_size_));
     return c;
   }
+  // Cells of a 4 x 4 x 4 block are neighbours in memory.
   std::size_t bucket(const Cell& c) const {
-    std::uint64_t h = std::uint64_t(c[0]) * 0x9e3779b97f4a7c15U;
-    h = (std::rotl(h, 29) ^ std::uint64_t(c[1])) * 0xbf58476d1ce4e5b9U;
-    h = (std::rotl(h, 29) ^ std::uint64_t(c[2])) * 0x94d049bb133111ebU;
-    return std::size_t(h >> 32) & (heads_.size() - 1);
+    std::uint64_t h = std::uint64_t(c[0] >> 2) * 0x9e3779b97f4a7c15U;
+    h = (std::rotl(h, 29) ^ std::uint64_t(c[1] >> 2)) * 0xbf58476d1ce4e5b9U;
+    h = (std::rotl(h, 29) ^ std::uint64_t(c[2] >> 2)) * 0x94d049bb133111ebU;
+    h = (h >> 32) << 6 | std::uint64_t((c[2] & 3) << 4 | (c[1] & 3) << 2 | (c[0] & 3));
+    return std::size_t(h) & (heads_.size() - 1);
   }
 
   Vec3 origin_ = Vec3::Zero();

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 #include "onmesh/error.h"
@@ -22,10 +23,17 @@ namespace {
 
 constexpr double kDensity = 0.6965;  // samples per spacing^2 in a maximal random set on a plane
 constexpr double kMaxSamples = 1 << 28;
-constexpr double kCandidates = 6;       // random candidates per expected sample
-constexpr double kBaseRadius = 0.3;     // of the spacing: cells that start the filling
-constexpr double kFinestRadius = 1e-3;  // of the spacing: cells that end it
-constexpr double kQuantile = 0.02;      // share of texels that may be smaller than the disc
+constexpr int kBatchesPerSample = 4;  // candidates come in batches of a quarter of the samples ...
+constexpr int kBatches = 24;          // ... fewer make the set less random, more find no room
+
+// Lengths in spacings. Cells larger than the base radius are split at once, those up to the dart
+// radius get darts, and at the finest radius a cell that still takes none counts as covered.
+constexpr double kBaseRadius = 0.8;
+constexpr double kDartRadius = 0.3;
+constexpr double kFinestRadius = 1e-3;
+constexpr double kGridCell = 3.2;
+
+constexpr double kQuantile = 0.02;  // share of texels that may be smaller than the disc
 constexpr double kMaxPerTexel = 16;
 
 // Random numbers with the same bits everywhere: splitmix64 (Steele, Lea & Flood 2014).
@@ -50,6 +58,9 @@ struct Cell {
   std::array<Vec3, 3> barycentric, corners;
 
   Vec3 centre() const { return (corners[0] + corners[1] + corners[2]) / 3; }
+  double area() const {
+    return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+  }
   double squared_radius(const Vec3& centre) const {
     return std::max({(corners[0] - centre).squaredNorm(), (corners[1] - centre).squaredNorm(),
                      (corners[2] - centre).squaredNorm()});
@@ -84,6 +95,7 @@ class Sampler {
   // A sample near a cell. Joined: every point of the cell that is within the spacing of the sample
   // conflicts with it; otherwise that depends on the point.
   struct Near {
+    Vec3 position;
     Index sample;
     bool joined;
   };
@@ -100,8 +112,8 @@ class Sampler {
   bool throw_dart(const SurfacePoint& dart, std::size_t first);
   void add(const SurfacePoint& sample, const Vec3& position);
 
-  bool close(Index sample, const Vec3& p) const {
-    return (positions_[sample] - p).squaredNorm() < squared_spacing_;
+  bool close(const Vec3& p, const Vec3& q) const {
+    return (p - q).squaredNorm() < squared_spacing_;
   }
   // Whether the ball around the sample reaches the face.
   bool reaches(Index sample, Index face) const {
@@ -111,9 +123,9 @@ class Sampler {
     return std::binary_search(first, last, face);
   }
   // A ball is convex, so it holds the cell when it holds the corners.
-  bool covers(Index sample, const Cell& cell) const {
-    return close(sample, cell.corners[0]) && close(sample, cell.corners[1]) &&
-           close(sample, cell.corners[2]);
+  bool covers(const Near& near, const Cell& cell) const {
+    return near.joined && close(near.position, cell.corners[0]) &&
+           close(near.position, cell.corners[1]) && close(near.position, cell.corners[2]);
   }
   Vec3 position(const SurfacePoint& p) const {
     const auto t = mesh_.corners(p.face);
@@ -129,7 +141,8 @@ class Sampler {
   const std::uint64_t seed_;
   std::vector<Index> faces_;        // to sample
   std::vector<double> area_below_;  // area of faces_ up to and including each
-  double expected_ = 0;             // estimate of the number of samples
+  Vec3 origin_;
+  double expected_ = 0;  // estimate of the number of samples
   Random random_;
   SurfaceBall ball_;
   PointGrid grid_;
@@ -137,11 +150,12 @@ class Sampler {
   std::vector<SurfacePoint> samples_;
   std::vector<Vec3> positions_;
   std::vector<std::size_t> reach_offsets_{0};
-  std::vector<Index>
-      reach_;  // per sample, the faces its ball reaches, sorted; none if only its own
+  std::vector<Index> reach_;  // per sample, faces its ball reaches, sorted; none if only its own
 
-  std::vector<Near> near_;    // stack of the filling
-  std::vector<Index> fresh_;  // samples added by the filling since it gathered near_
+  std::vector<Near> near_;   // stack of the filling
+  std::vector<Near> fresh_;  // samples added by the filling since it gathered near_
+  double filled_ = 0;        // area done
+  std::size_t gathers_ = 0;
 };
 
 Sampler::Sampler(const TriangleMesh& mesh, const PoissonOptions& options, const Progress& progress)
@@ -152,19 +166,19 @@ Sampler::Sampler(const TriangleMesh& mesh, const PoissonOptions& options, const 
       seed_(Random(options.seed).next()),
       random_(seed_),
       ball_(mesh) {
-  Vec3 origin = Vec3::Constant(std::numeric_limits<double>::infinity());
+  origin_ = Vec3::Constant(std::numeric_limits<double>::infinity());
   double area = 0, longest = 0;
   for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
     if (!options.faces.empty() && !options.faces[f]) continue;
     const auto t = mesh.corners(f);
-    const double face_area = 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+    const double face_area = Cell{f, {}, t}.area();
     if (!(face_area > 0)) continue;
     area += face_area;
     faces_.push_back(f);
     area_below_.push_back(area);
     for (std::size_t k = 0; k < 3; ++k) {
       longest = std::max(longest, (t[(k + 1) % 3] - t[k]).norm());
-      origin = origin.cwiseMin(t[k]);
+      origin_ = origin_.cwiseMin(t[k]);
     }
   }
   if (faces_.empty()) throw InputError("no face to sample has area");
@@ -176,15 +190,13 @@ Sampler::Sampler(const TriangleMesh& mesh, const PoissonOptions& options, const 
             << ", more than 2^28: choose a larger spacing";
     throw InputError(message.str());
   }
-  grid_ = PointGrid(origin, (2 + 2 * kBaseRadius) * spacing_, std::size_t(expected_));
+  grid_ = PointGrid(origin_, kGridCell * spacing_, std::size_t(expected_));
 }
 
 std::vector<SurfacePoint> Sampler::run() {
   throw_candidates();
-  for (std::size_t i = 0; i < faces_.size(); ++i) {
-    if (i % 1024 == 0) report(0.5 + 0.5 * area_below_[i] / area_below_.back());
-    fill({faces_[i], {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, mesh_.corners(faces_[i])});
-  }
+  for (const Index f : faces_)
+    fill({f, {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, mesh_.corners(f)});
   report(1);
   return std::move(samples_);
 }
@@ -197,13 +209,28 @@ void Sampler::throw_candidates() {
   CGAL::Random random(unsigned(seed_ >> 32));
   CGAL::Random_points_in_triangle_3<Point> points(Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1),
                                                   random);
-  const auto count = std::size_t(std::ceil(kCandidates * expected_));
-  for (std::size_t i = 0; i < count; ++i, ++points) {
-    if (i % 65536 == 0) report(0.5 * double(i) / double(count));
-    const double target = random.get_double(0, area_below_.back());
-    const auto face = std::upper_bound(area_below_.begin(), area_below_.end() - 1, target);
-    throw_dart(
-        {faces_[std::size_t(face - area_below_.begin())], {points->x(), points->y(), points->z()}});
+  // Taken in batches sorted by place, which finds the samples near them in the cache.
+  struct Candidate {
+    std::array<Index, 3> place;
+    Index number;
+    bool operator<(const Candidate& c) const {
+      return std::tie(place, number) < std::tie(c.place, c.number);
+    }
+  };
+  std::vector<SurfacePoint> batch(std::size_t(std::ceil(expected_ / kBatchesPerSample)));
+  std::vector<Candidate> order(batch.size());
+  for (int i = 0; i < kBatches; ++i) {
+    report(0.5 * i / kBatches);
+    for (std::size_t j = 0; j < batch.size(); ++j, ++points) {
+      const double target = random.get_double(0, area_below_.back());
+      const auto face = std::upper_bound(area_below_.begin(), area_below_.end() - 1, target);
+      batch[j] = {faces_[std::size_t(face - area_below_.begin())],
+                  {points->x(), points->y(), points->z()}};
+      const Vec3 place = (position(batch[j]) - origin_) / (kGridCell * spacing_);
+      order[j] = {{Index(place[0]), Index(place[1]), Index(place[2])}, Index(j)};
+    }
+    std::sort(order.begin(), order.end());
+    for (const Candidate& c : order) throw_dart(batch[c.number]);
   }
 }
 
@@ -215,14 +242,15 @@ void Sampler::fill(const Cell& cell) {
     for (const Cell& half : cell.split()) fill(half);
     return;
   }
+  filled_ += cell.area();
+  if (++gathers_ % 65536 == 0) report(0.5 + 0.5 * std::min(filled_ / area_below_.back(), 1.0));
   near_.clear();
   fresh_.clear();
   const double limit = (spacing_ + radius) * (spacing_ + radius);
   const bool covered = grid_.visit(centre, spacing_ + radius, [&](Index i) {
     if ((positions_[i] - centre).squaredNorm() >= limit) return false;
-    const bool joined = reaches(i, cell.face);
-    near_.push_back({i, joined});
-    return joined && covers(i, cell);
+    near_.push_back({positions_[i], i, reaches(i, cell.face)});
+    return covers(near_.back(), cell);
   });
   if (!covered) fill(cell, {0, near_.size(), 0});
 }
@@ -236,17 +264,16 @@ void Sampler::fill(const Cell& cell, const NearRange& parent) {
   const std::size_t first = near_.size();
   bool covered = false, unjoined = false;
   const auto consider = [&](const Near& n) {
-    if ((positions_[n.sample] - centre).squaredNorm() >= limit) return;
-    covered = n.joined && covers(n.sample, cell);
+    if ((n.position - centre).squaredNorm() >= limit) return;
+    covered = covers(n, cell);
     unjoined |= !n.joined;
     near_.push_back(n);
   };
   for (std::size_t i = parent.first; i < parent.last && !covered; ++i) consider(Near(near_[i]));
-  for (std::size_t i = parent.fresh; i < fresh_.size() && !covered; ++i)
-    consider({fresh_[i], true});  // it lies on the cell's face
+  for (std::size_t i = parent.fresh; i < fresh_.size() && !covered; ++i) consider(fresh_[i]);
   if (!covered && unjoined) covered = settle_unjoined(cell, centre, radius, first);
 
-  if (!covered) {
+  if (!covered && radius <= kDartRadius * spacing_) {
     const bool finest = radius <= kFinestRadius * spacing_;
     SurfacePoint dart{cell.face, Vec3::Constant(1.0 / 3)};
     if (!finest) {
@@ -258,7 +285,7 @@ void Sampler::fill(const Cell& cell, const NearRange& parent) {
     dart.barycentric = weights[0] * cell.barycentric[0] + weights[1] * cell.barycentric[1] +
                        weights[2] * cell.barycentric[2];
     if (throw_dart(dart, first)) {
-      near_.push_back({fresh_.back(), true});
+      near_.push_back(fresh_.back());
       covered = covers(fresh_.back(), cell);
     }
     covered |= finest;  // up to the tolerance
@@ -286,7 +313,7 @@ bool Sampler::settle_unjoined(const Cell& cell, const Vec3& centre, double radiu
   for (std::size_t i = first; i < near_.size(); ++i) {
     if (near_[i].joined || !ball_.found(samples_[near_[i].sample].face)) continue;
     near_[i].joined = true;
-    if (covers(near_[i].sample, cell)) return true;
+    if (covers(near_[i], cell)) return true;
   }
   return false;
 }
@@ -296,7 +323,7 @@ bool Sampler::throw_dart(const SurfacePoint& dart) {
   const Vec3 p = position(dart);
   bool unjoined = false;
   const bool conflict = grid_.visit(p, spacing_, [&](Index i) {
-    if (!close(i, p)) return false;
+    if (!close(positions_[i], p)) return false;
     if (reaches(i, dart.face)) return true;
     unjoined = true;
     return false;
@@ -304,7 +331,7 @@ bool Sampler::throw_dart(const SurfacePoint& dart) {
   if (conflict) return false;
   ball_.find(dart.face, p, spacing_);
   if (unjoined && grid_.visit(p, spacing_, [&](Index i) {
-        return close(i, p) && ball_.found(samples_[i].face);
+        return close(positions_[i], p) && ball_.found(samples_[i].face);
       }))
     return false;
   add(dart, p);
@@ -315,11 +342,11 @@ bool Sampler::throw_dart(const SurfacePoint& dart) {
 bool Sampler::throw_dart(const SurfacePoint& dart, std::size_t first) {
   const Vec3 p = position(dart);
   for (std::size_t i = first; i < near_.size(); ++i)
-    if (near_[i].joined && close(near_[i].sample, p)) return false;
+    if (near_[i].joined && close(near_[i].position, p)) return false;
   ball_.find(dart.face, p, spacing_);
   for (std::size_t i = first; i < near_.size(); ++i)
-    if (close(near_[i].sample, p) && ball_.found(samples_[near_[i].sample].face)) return false;
-  fresh_.push_back(Index(samples_.size()));
+    if (close(near_[i].position, p) && ball_.found(samples_[near_[i].sample].face)) return false;
+  fresh_.push_back({p, Index(samples_.size()), true});  // it lies on the cell's face
   add(dart, p);
   return true;
 }
