@@ -56,47 +56,66 @@ struct FaceExponents {
   V corner0, to_corner1, to_corner2;
 };
 
-/// Log2 of a sample's spatial weight times area. \param inside receives the lanes within the radius
-template <bool kMasked>
-HWY_INLINE V spatial(D d, const float* HWY_RESTRICT record, const FaceExponents& e, M& inside) {
-  V x = hn::Add(e.corner0, hn::Set(d, record[2]));
-  x = hn::MulAdd(hn::Set(d, record[0]), e.to_corner1, x);
-  x = hn::MulAdd(hn::Set(d, record[1]), e.to_corner2, x);
-  if constexpr (kMasked) inside = hn::Ge(x, hn::Set(d, record[4]));
-  return hn::Min(x, hn::Set(d, record[3]));  // rounding must not make d^2 negative
+/// Samples near a block: where their records are, and the log2 of their spatial weights times area
+/// for all lanes. Sums are done over whole lists, so that short faces don't make short loops.
+struct NearList {
+  static constexpr std::size_t kSize = 64;
+  std::size_t size = 0;
+  const float* records[kSize];
+  HWY_ALIGN float exponents[kSize * hn::MaxLanes(D())];
+};
+
+/// Append the samples from `record` on that some lane has within the radius, until `end` or until
+/// the list is full. \return where it stopped
+HWY_INLINE const float* append(D d, const float* HWY_RESTRICT record, const float* end,
+                               std::size_t stride, const FaceExponents& e, NearList& list,
+                               std::uint64_t& pairs) {
+  const std::size_t lanes = hn::Lanes(d);
+  const V never = hn::Set(d, kNever);
+  std::size_t size = list.size;
+  for (; record != end && size < NearList::kSize; record += stride) {
+    V x = hn::Add(e.corner0, hn::Set(d, record[2]));
+    x = hn::MulAdd(hn::Set(d, record[0]), e.to_corner1, x);
+    x = hn::MulAdd(hn::Set(d, record[1]), e.to_corner2, x);
+    const M inside = hn::Ge(x, hn::Set(d, record[4]));
+    x = hn::Min(x, hn::Set(d,
+                           record[3]));  // rounding must not
+                                         // make d^2 negative
+    hn::Store(hn::IfThenElse(inside, x, never), d, list.exponents + size * lanes);
+    list.records[size] = record;
+    const std::size_t count = hn::CountTrue(d, inside);
+    pairs += count;
+    size += count != 0;  // no branch: it would be
+                         // mispredicted too often
+  }
+  list.size = size;
+  return record;
 }
 
-/// Sums over the samples of one face, up to 4 channels that all take part in the colour difference.
-/// The bilateral filter sums differences to the target's own colour.
-template <int kChannels, bool kRange, bool kMasked>
-HWY_INLINE std::uint64_t add_face(D d, const KernelWork& work, const KernelWork::Face& face,
-                                  const FaceExponents& e, const float* own, float* sums) {
-  constexpr std::size_t kStride = KernelWork::kFixed + kChannels;
+/// Sums over a list, up to 4 channels that
+/// all take part in the colour difference.
+/// The bilateral filter sums differences to
+/// the target's own colour.
+template <int kChannels, bool kRange>
+HWY_INLINE void add(D d, const NearList& list, const float* own, float* sums) {
   const std::size_t lanes = hn::Lanes(d);
   V reference[kChannels], sum[kChannels], weights = hn::Zero(d);
   for (int c = 0; c < kChannels; ++c) {
     reference[c] = hn::Load(d, own + std::size_t(c) * lanes);
     sum[c] = hn::Zero(d);
   }
-  std::uint64_t pairs = 0;
-  const float* HWY_RESTRICT record = work.records.data() + face.begin * kStride;
-  const float* const end = work.records.data() + face.end * kStride;
-  for (; record != end; record += kStride) {
-    M inside;
-    V x = spatial<kMasked>(d, record, e, inside);
+  for (std::size_t k = 0; k < list.size; ++k) {
+    const float* HWY_RESTRICT const colour = list.records[k] + KernelWork::kFixed;
+    V x = hn::Load(d, list.exponents + k * lanes);
     V value[kChannels];
     for (int c = 0; c < kChannels; ++c) {
-      value[c] = hn::Set(d, record[KernelWork::kFixed + std::size_t(c)]);
+      value[c] = hn::Set(d, colour[c]);
       if constexpr (kRange) {
         value[c] = hn::Sub(value[c], reference[c]);
         x = hn::NegMulAdd(value[c], value[c], x);
       }
     }
-    V w = exp2(d, x);
-    if constexpr (kMasked) {
-      w = hn::IfThenElseZero(inside, w);
-      pairs += hn::CountTrue(d, inside);
-    }
+    const V w = exp2(d, x);
     weights = hn::Add(weights, w);
     for (int c = 0; c < kChannels; ++c) sum[c] = hn::MulAdd(w, value[c], sum[c]);
   }
@@ -105,55 +124,44 @@ HWY_INLINE std::uint64_t add_face(D d, const KernelWork& work, const KernelWork:
     float* const total = sums + std::size_t(c + 1) * lanes;
     hn::Store(hn::Add(hn::Load(d, total), sum[c]), d, total);
   }
-  return pairs;
 }
 
-/// The same for any number of channels: weights first, then one channel after the other.
-template <bool kMasked>
-HWY_INLINE std::uint64_t add_face_general(D d, const KernelWork& work, const KernelWork::Face& face,
-                                          const FaceExponents& e, const float* own, float* sums,
-                                          float* buffer, std::size_t buffered) {
-  const std::size_t lanes = hn::Lanes(d), stride = work.stride();
+/// The same for any number of channels:
+/// weights first, then one channel after the
+/// other.
+HWY_INLINE void add_general(D d, const KernelWork& work, NearList& list, const float* own,
+                            float* sums) {
+  const std::size_t lanes = hn::Lanes(d);
   const auto channels = std::size_t(work.channels), range = std::size_t(work.range_channels);
-  std::uint64_t pairs = 0;
-  for (std::size_t begin = face.begin; begin < face.end; begin += buffered) {
-    const std::size_t count = std::min(buffered, face.end - begin);
-    const float* const records = work.records.data() + begin * stride;
-    V weights = hn::Zero(d);
-    for (std::size_t k = 0; k < count; ++k) {
-      const float* const record = records + k * stride;
-      M inside;
-      V x = spatial<kMasked>(d, record, e, inside);
-      for (std::size_t c = 0; c < range; ++c) {
-        const V difference =
-            hn::Sub(hn::Set(d, record[KernelWork::kFixed + c]), hn::Load(d, own + c * lanes));
-        x = hn::NegMulAdd(difference, difference, x);
-      }
-      V w = exp2(d, x);
-      if constexpr (kMasked) {
-        w = hn::IfThenElseZero(inside, w);
-        pairs += hn::CountTrue(d, inside);
-      }
-      weights = hn::Add(weights, w);
-      hn::Store(w, d, buffer + k * lanes);
+  V weights = hn::Zero(d);
+  for (std::size_t k = 0; k < list.size; ++k) {
+    const float* const colour = list.records[k] + KernelWork::kFixed;
+    V x = hn::Load(d, list.exponents + k * lanes);
+    for (std::size_t c = 0; c < range; ++c) {
+      const V difference = hn::Sub(hn::Set(d, colour[c]), hn::Load(d, own + c * lanes));
+      x = hn::NegMulAdd(difference, difference, x);
     }
-    hn::Store(hn::Add(hn::Load(d, sums), weights), d, sums);
-    const V differences = hn::Set(d, range > 0 ? 1.0F : 0.0F);
-    for (std::size_t c = 0; c < channels; ++c) {
-      const V reference = hn::Mul(differences, hn::Load(d, own + c * lanes));
-      V sum = hn::Zero(d);
-      for (std::size_t k = 0; k < count; ++k) {
-        const V value = hn::Set(d, records[k * stride + KernelWork::kFixed + c]);
-        sum = hn::MulAdd(hn::Load(d, buffer + k * lanes), hn::Sub(value, reference), sum);
-      }
-      float* const total = sums + (c + 1) * lanes;
-      hn::Store(hn::Add(hn::Load(d, total), sum), d, total);
-    }
+    const V w = exp2(d, x);
+    weights = hn::Add(weights, w);
+    hn::Store(w, d, list.exponents + k * lanes);
   }
-  return pairs;
+  hn::Store(hn::Add(hn::Load(d, sums), weights), d, sums);
+  const V differences = hn::Set(d, range > 0 ? 1.0F : 0.0F);
+  for (std::size_t c = 0; c < channels; ++c) {
+    const V reference = hn::Mul(differences, hn::Load(d, own + c * lanes));
+    V sum = hn::Zero(d);
+    for (std::size_t k = 0; k < list.size; ++k) {
+      const V value = hn::Set(d, list.records[k][KernelWork::kFixed + c]);
+      sum = hn::MulAdd(hn::Load(d, list.exponents + k * lanes), hn::Sub(value, reference), sum);
+    }
+    float* const total = sums + (c + 1) * lanes;
+    hn::Store(hn::Add(hn::Load(d, total), sum), d, total);
+  }
 }
 
-/// As many targets as a vector has lanes, with everything that is the same for all samples.
+/// As many targets as a vector has lanes,
+/// with everything that is the same for all
+/// samples.
 class Block {
  public:
   Block(const KernelInput& input, const KernelWork& work)
@@ -166,7 +174,6 @@ class Block {
         exponents_(hwy::AllocateAligned<float>(nodes_ * lanes_)),
         own_(hwy::AllocateAligned<float>(channels_ * lanes_)),
         sums_(hwy::AllocateAligned<float>((channels_ + 1) * lanes_)),
-        buffer_(hwy::AllocateAligned<float>(kBuffered * lanes_)),
         unreachable_(nodes_) {}
 
   template <int kChannels, bool kRange>
@@ -174,15 +181,17 @@ class Block {
     load(first);
     compute_exponents();
     const V limit = hn::Set(d_, work_.limit);
-    // Lanes without a target are never within the radius and must not hide that all others are.
-    const V limit_or_empty = hn::IfThenElse(hn::FirstN(d_, used_), limit, hn::Set(d_, 2 * kNever));
+    const std::size_t stride = work_.stride();
+    const float* const records = work_.records.data();
     std::uint64_t pairs = 0;
     for (const KernelWork::Face& face : work_.faces) {
       const auto& n = face.corners;
       V e0 = hn::Load(d_, exponents_.get() + n[0] * lanes_);
       V e1 = hn::Load(d_, exponents_.get() + n[1] * lanes_);
       V e2 = hn::Load(d_, exponents_.get() + n[2] * lanes_);
-      // d^2 at a sample is at least the smallest of the corners' less the sample's variance ...
+      // d^2 at a sample is at least the
+      // smallest of the corners' less the
+      // sample's variance.
       const V nearest = hn::Max(hn::Max(e0, e1), e2);
       if (hn::AllFalse(d_, hn::Ge(nearest, hn::Sub(limit, hn::Set(d_, face.slack))))) continue;
       if (unreachable_[n[0]] | unreachable_[n[1]] | unreachable_[n[2]]) {
@@ -194,19 +203,18 @@ class Block {
         e2 = hn::IfThenElse(apart, never, e2);
       }
       const FaceExponents e{e0, hn::Sub(e1, e0), hn::Sub(e2, e0)};
-      // ... and at most the largest of the corners': if that is within the radius, all samples are.
-      const V farthest = hn::Min(hn::Min(e0, e1), e2);
-      if (hn::AllTrue(d_, hn::Ge(farthest, limit_or_empty))) {
-        add<kChannels, kRange, false>(face, e);
-        pairs += used_ * (face.end - face.begin);
-      } else {
-        pairs += add<kChannels, kRange, true>(face, e);
+      const float* record = records + face.begin * stride;
+      const float* const end = records + face.end * stride;
+      while ((record = append(d_, record, end, stride, e, list_, pairs)) != end) {
+        flush<kChannels, kRange>();
       }
     }
+    flush<kChannels, kRange>();
     return pairs;
   }
 
-  /// Divide the sums by the weights. \return number of targets that kept their values
+  /// Divide the sums by the weights. \return
+  /// number of targets that kept their values
   std::uint64_t store(const Colours& colours, std::size_t first, std::vector<float>& out) const {
     std::uint64_t kept = 0;
     const bool range = work_.range_channels > 0;
@@ -228,20 +236,21 @@ class Block {
   }
 
  private:
-  static constexpr std::size_t kBuffered = 32;
-
-  template <int kChannels, bool kRange, bool kMasked>
-  HWY_INLINE std::uint64_t add(const KernelWork::Face& face, const FaceExponents& e) {
+  template <int kChannels, bool kRange>
+  HWY_INLINE void flush() {
     if constexpr (kChannels > 0) {
-      return add_face<kChannels, kRange, kMasked>(d_, work_, face, e, own_.get(), sums_.get());
+      add<kChannels, kRange>(d_, list_, own_.get(), sums_.get());
     } else {
-      return add_face_general<kMasked>(d_, work_, face, e, own_.get(), sums_.get(), buffer_.get(),
-                                       kBuffered);
+      add_general(d_, work_, list_, own_.get(), sums_.get());
     }
+    list_.size = 0;
   }
 
-  /// Take over targets first, first + 1, ... and list the nodes around them: corner_[i] is node i,
-  /// barycentric_[i] its barycentric coordinate in each lane's target (0 where it is no corner).
+  /// Take over targets first, first + 1, ...
+  /// and list the nodes around them:
+  /// corner_[i] is node i, barycentric_[i]
+  /// its barycentric coordinate in each
+  /// lane's target (0 where it is no corner).
   void load(std::size_t first) {
     used_ = std::min(lanes_, work_.targets.size() - first);
     corners_.clear();
@@ -265,7 +274,9 @@ class Block {
     }
   }
 
-  /// Exponents of all targets at all nodes of the patch: sum_i a_i D_ij - V(x), scaled.
+  /// Exponents of all targets at all nodes of
+  /// the patch: sum_i a_i D_ij - V(x),
+  /// scaled.
   void compute_exponents() {
     const V variance = hn::Load(d_, variance_);
     const V unreachable = hn::Set(d_, kUnreachable);
@@ -283,7 +294,8 @@ class Block {
       const std::size_t rest = std::min(lanes_, nodes_ - n);
       V largest = hn::Zero(d_);
       for (std::size_t i = 0; i < count; ++i) {
-        // A load beyond the last node could leave the table.
+        // A load beyond the last node could
+        // leave the table.
         if (rest < lanes_) {
           for (std::size_t k = 0; k < rest; ++k) tail_[k] = rows_[i][n + k];
         }
@@ -295,7 +307,8 @@ class Block {
     }
   }
 
-  /// Lanes whose face has a corner from which a corner of `face` is unreachable.
+  /// Lanes whose face has a corner from which
+  /// a corner of `face` is unreachable.
   M unreachable_lanes(const KernelWork::Face& face) {
     Index core_face = kNone;
     bool apart = true;
@@ -321,8 +334,10 @@ class Block {
   const KernelWork::Target* targets_ = nullptr;
   std::vector<Index> corners_;
   std::vector<const float*> rows_;
-  hwy::AlignedFreeUniquePtr<float[]> barycentric_, exponents_, own_, sums_, buffer_;
-  /// By node: some target of the block may not reach it.
+  hwy::AlignedFreeUniquePtr<float[]> barycentric_, exponents_, own_, sums_;
+  NearList list_;
+  /// By node: some target of the block may
+  /// not reach it.
   std::vector<std::uint8_t> unreachable_;
   HWY_ALIGN float variance_[hn::MaxLanes(D())] = {};
   HWY_ALIGN float tail_[hn::MaxLanes(D())] = {};

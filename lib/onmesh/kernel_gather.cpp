@@ -31,27 +31,41 @@ void gather_samples(const KernelInput& input, double variance_scale, KernelWork&
     }
     count += sources.face_offsets[f + 1] - sources.face_offsets[f];
   }
-  work.records.reserve(count * work.stride());
+  work.records.resize(count * work.stride());
 
+  float* record = work.records.data();
+  std::size_t used = 0;
+  float last_share = 1, log_area = 0;  // most neighbours stand for the same area
   for (std::size_t local = 0; local < patch.faces.size(); ++local) {
     const Index f = patch.faces[local];
     KernelWork::Face face;
     face.corners = patch.corners[local];
-    face.begin = face.end = work.records.size() / work.stride();
+    face.begin = used;
     for (Index k = sources.face_offsets[f]; k < sources.face_offsets[f + 1]; ++k) {
       const Sample& s = sources.samples[k];
-      const float* colour = colours.values + std::size_t(s.texel) * std::size_t(colours.stride);
+      const float* const colour =
+          colours.values + std::size_t(s.texel) * std::size_t(colours.stride);
       const float share = s.area / largest_area;
       if (!(share > 0) || !usable(colour, work.channels, work.colour_scale)) continue;
-      const float log_area = std::log2(share);
+      if (share != last_share) {
+        last_share = share;
+        log_area = std::log2(share);
+      }
       const auto variance = static_cast<float>(
           variance_scale * barycentric_variance(patch.lengths[local], barycentric(s)));
-      work.records.insert(work.records.end(),
-                          {s.b1, s.b2, variance + log_area, log_area, work.limit + log_area});
-      for (int c = 0; c < work.channels; ++c) work.records.push_back(colour[c] * work.colour_scale);
+      record[0] = s.b1;
+      record[1] = s.b2;
+      record[2] = variance + log_area;
+      record[3] = log_area;
+      record[4] = work.limit + log_area;
+      for (int c = 0; c < work.channels; ++c) {
+        record[KernelWork::kFixed + std::size_t(c)] = colour[c] * work.colour_scale;
+      }
+      record += work.stride();
+      ++used;
       face.slack = std::max(face.slack, variance);
-      ++face.end;
     }
+    face.end = used;
     if (face.end > face.begin) work.faces.push_back(face);
   }
 }
