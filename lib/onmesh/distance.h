@@ -35,8 +35,8 @@ class DistanceBackend {
  public:
   virtual ~DistanceBackend() = default;
   virtual std::string_view name() const = 0;
-  /// How far beyond `reach` the patch must extend for this back end to be right up to `reach`, given
-  /// the patch's longest edge.
+  /// How far beyond `reach` the patch must extend for this back end to be right up to `reach`,
+  /// given the patch's longest edge.
   virtual double margin(double reach, double longest_edge) const = 0;
   /// Squared distances from every core node to every patch node. Entries up to `reach` are right,
   /// entries beyond may be kUnreachable.
@@ -54,15 +54,17 @@ std::unique_ptr<DistanceBackend> make_exact(const TriangleMesh& mesh, const Node
 std::unique_ptr<DistanceBackend> make_backend(DistanceMethod method, const TriangleMesh& mesh,
                                               const NodeMesh& nodes);
 
-/// Distances from a point x in a core face to every patch node, from the table:
-/// d^2 = sum_i a_i D_ij - V(x). kUnreachable-aware; infinity where not reached.
+/// Distances (mesh units) from a point x in a core face (local index) to every patch node, from the
+/// table: d^2 = sum_i a_i D_ij - V(x). Infinity where a corner with a_i != 0 did not reach the
+/// node.
 std::vector<double> distances_from(const Patch& patch, const DistanceTable& table, Index core_face,
                                    const Vec3& barycentric);
 
 /// Squared distance between two points of node faces from nine table entries:
-/// d^2(x,y) = sum_ij a_i b_j D_ij - V(x) - V(y), clamped at 0.
-double interpolate_squared(const double (&squared)[3][3], const Vec3& a, const Vec3& b, double variance_a,
-                           double variance_b);
+/// d^2(x,y) = sum_ij a_i b_j D_ij - V(x) - V(y), clamped at 0. kUnreachable if an entry that takes
+/// part is.
+double interpolate_squared(const double (&squared)[3][3], const Vec3& a, const Vec3& b,
+                           double variance_a, double variance_b);
 
 /// The barycentric variance V(x) = a0 a1 l01^2 + a1 a2 l12^2 + a2 a0 l20^2.
 double barycentric_variance(const std::array<double, 3>& lengths, const Vec3& barycentric);
@@ -75,7 +77,8 @@ class ExactGeodesics {
   explicit ExactGeodesics(const TriangleMesh& mesh);
   ~ExactGeodesics();
   /// Not const: keeps the last source's tree.
-  std::vector<double> distances(const SurfacePoint& source, const std::vector<SurfacePoint>& targets);
+  std::vector<double> distances(const SurfacePoint& source,
+                                const std::vector<SurfacePoint>& targets);
 
  private:
   struct State;

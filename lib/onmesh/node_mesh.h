@@ -7,18 +7,25 @@
 
 namespace onmesh {
 
-/// A triangle complex given by its edge lengths. Two faces may share all their nodes, and a face may
-/// have one node twice (multi-edges and self-edges of intrinsic triangulations): never look a face or
-/// an edge up by its nodes. Non-manifold complexes are allowed.
+/// A triangle complex given by its edge lengths. Two faces may share all their nodes, and a face
+/// may have one node twice (multi-edges and self-edges of intrinsic triangulations): never look a
+/// face or an edge up by its nodes. Non-manifold complexes are allowed.
 struct NodeMesh {
-  std::vector<SurfacePoint> nodes;              ///< where each node lies on the input mesh
+  std::vector<SurfacePoint> nodes;  ///< where each node lies on the input mesh
   std::vector<std::array<Index, 3>> faces;
-  std::vector<std::array<double, 3>> lengths;   ///< lengths[f][k]: from corner k to corner (k+1)%3
-  std::vector<Index> node_offsets, node_faces;  ///< faces around each node (CSR), ascending
+  std::vector<std::array<double, 3>> lengths;  ///< lengths[f][k]: from corner k to corner (k+1)%3
+  std::vector<Index> node_offsets,
+      node_faces;  ///< faces around each node (CSR), ascending, each once
+
+  /// neighbours[f][k] = 3 g + l: edge k of face f is glued to edge l of face g, and to nothing
+  /// else. kNone: boundary, or an edge with three or more faces. May be empty; then edges are told
+  /// apart by their nodes and lengths, which fails only for different edges that have both in
+  /// common.
+  std::vector<std::array<Index, 3>> neighbours;
 
   /// Fill node_offsets and node_faces from faces.
   void build_incidence();
-  double longest_edge() const;
+  double longest_edge() const;  ///< 0 without faces
   double face_area(Index face) const;
 };
 
@@ -28,7 +35,8 @@ struct NodePoint {
   Vec3 barycentric = Vec3::Zero();
 };
 
-/// The mesh's own vertices and faces as nodes, unrefined.
+/// The mesh's own vertices and faces as nodes, unrefined. Node i is vertex i; its point's face is
+/// kNone if no face uses the vertex. Faces glue where exactly two share a pair of vertices.
 NodeMesh make_node_mesh(const TriangleMesh& mesh);
 
 /// Area of a triangle from its side lengths without cancellation (Kahan). 0 if they violate the

@@ -1,1 +1,342 @@
 #include "onmesh/patch.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace onmesh {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// ---------------------------------------------------------------------------------------------
+// Partition: recursive bisection by hop distance
+// ---------------------------------------------------------------------------------------------
+
+// Breadth-first searches over faces that share nodes, within the faces of one label at a time.
+class FaceSearch {
+ public:
+  explicit FaceSearch(const NodeMesh& mesh)
+      : label(mesh.faces.size(), kNone),
+        mesh_(mesh),
+        face_seen_(mesh.faces.size(), 0),
+        node_seen_(mesh.nodes.size(), 0) {}
+
+  // Forget which faces and nodes were visited.
+  void restart() { ++epoch_; }
+  bool seen(Index face) const { return face_seen_[face] == epoch_; }
+
+  // The faces reached from `start` within its label, nearest first; hops[face] if asked for.
+  std::vector<Index> reach(Index start, std::vector<int>* hops = nullptr) {
+    std::vector<Index> order{start};
+    face_seen_[start] = epoch_;
+    if (hops) (*hops)[start] = 0;
+    for (std::size_t next = 0; next < order.size(); ++next) {
+      const Index f = order[next];
+      for (const Index v : mesh_.faces[f]) {
+        if (node_seen_[v] == epoch_) continue;
+        node_seen_[v] = epoch_;
+        for (Index i = mesh_.node_offsets[v]; i < mesh_.node_offsets[v + 1]; ++i) {
+          const Index g = mesh_.node_faces[i];
+          if (face_seen_[g] == epoch_ || label[g] != label[start]) continue;
+          face_seen_[g] = epoch_;
+          if (hops) (*hops)[g] = (*hops)[f] + 1;
+          order.push_back(g);
+        }
+      }
+    }
+    return order;
+  }
+
+  std::vector<Index> label;  // per face
+
+ private:
+  const NodeMesh& mesh_;
+  std::vector<Index> face_seen_, node_seen_;
+  Index epoch_ = 0;
+};
+
+// Order a connected set of faces from one far end to the other by the difference of the hop
+// distances to both ends: the cut through the middle is then short and straight.
+std::vector<Index> order_between_ends(FaceSearch& search, Index start, std::vector<int>& to_first,
+                                      std::vector<int>& to_last) {
+  search.restart();
+  const Index first = search.reach(start).back();
+  search.restart();
+  const std::vector<Index> order = search.reach(first, &to_first);
+  search.restart();
+  search.reach(order.back(), &to_last);
+
+  int lowest = std::numeric_limits<int>::max(), highest = std::numeric_limits<int>::min();
+  for (const Index f : order) {
+    lowest = std::min(lowest, to_first[f] - to_last[f]);
+    highest = std::max(highest, to_first[f] - to_last[f]);
+  }
+  std::vector<std::size_t> begin(highest - lowest + 2, 0);
+  for (const Index f : order) ++begin[to_first[f] - to_last[f] - lowest + 1];
+  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+  std::vector<Index> sorted(order.size());
+  for (const Index f : order) sorted[begin[to_first[f] - to_last[f] - lowest]++] = f;
+  return sorted;
+}
+
+// Merge groups below a quarter of the target into their lightest neighbour.
+void merge_small(const NodeMesh& mesh, const std::vector<double>& weights, double target,
+                 std::vector<std::vector<Index>>& groups, std::vector<Index>& group_of) {
+  std::vector<double> total(groups.size(), 0);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const Index f : groups[g]) total[g] += weights[f];
+  for (Index g = 0; g < groups.size(); ++g) {
+    if (total[g] >= 0.25 * target) continue;
+    Index best = kNone;
+    for (const Index f : groups[g])
+      for (const Index v : mesh.faces[f])
+        for (Index i = mesh.node_offsets[v]; i < mesh.node_offsets[v + 1]; ++i) {
+          const Index other = group_of[mesh.node_faces[i]];
+          if (other == kNone || other == g || total[g] + total[other] > 1.5 * target) continue;
+          if (best == kNone || std::pair(total[other], other) < std::pair(total[best], best))
+            best = other;
+        }
+    if (best == kNone) continue;
+    for (const Index f : groups[g]) group_of[f] = best;
+    groups[best].insert(groups[best].end(), groups[g].begin(), groups[g].end());
+    groups[g].clear();
+    total[best] += std::exchange(total[g], 0);
+  }
+  std::erase_if(groups, [](const auto& group) { return group.empty(); });
+}
+
+// ---------------------------------------------------------------------------------------------
+// Growth: distance from the core, by unfolding
+// ---------------------------------------------------------------------------------------------
+
+// Numbers keys 0, 1, 2, ... in the order of their first appearance (open addressing).
+class Numbering {
+ public:
+  explicit Numbering(std::size_t expected)
+      : slots_(std::bit_ceil(std::max<std::size_t>(64, 2 * expected)), kNone) {}
+
+  const std::vector<Index>& keys() const { return keys_; }
+  Index find(Index key) const { return slots_[slot(key)]; }
+  Index find_or_add(Index key) {
+    std::size_t at = slot(key);
+    if (slots_[at] != kNone) return slots_[at];
+    if (2 * (keys_.size() + 1) > slots_.size()) {
+      slots_.assign(2 * slots_.size(), kNone);
+      for (Index i = 0; i < keys_.size(); ++i) slots_[slot(keys_[i])] = i;
+      at = slot(key);
+    }
+    slots_[at] = Index(keys_.size());
+    keys_.push_back(key);
+    return slots_[at];
+  }
+
+ private:
+  std::size_t slot(Index key) const {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t at = (std::uint64_t(key) * 0x9e3779b97f4a7c15U >> 20) & mask;
+    while (slots_[at] != kNone && keys_[slots_[at]] != key) at = (at + 1) & mask;
+    return at;
+  }
+
+  std::vector<Index> slots_, keys_;
+};
+
+// A lower estimate of the distance at the third corner of a triangle from those at the ends of its
+// edge of length l; a and b are the other edges' lengths. The least of the paths along the edges,
+// from a point source, and from a straight front (which is what the core's edges send out); only
+// rays that cross the edge count.
+double distance_across(double da, double db, double l, double a, double b) {
+  double best = std::min(da + a, db + b);
+  if (!(l > 0) || da == kInfinity || db == kInfinity) return best;
+  const double x = (l * l + a * a - b * b) / (2 * l);
+  const double y = std::sqrt(std::max(0.0, a * a - x * x));
+
+  const double sx = ((da - db) * (da + db) + l * l) / (2 * l);
+  const double sy2 = da * da - sx * sx;
+  if (sy2 >= 0) {
+    const double sy = std::sqrt(sy2);
+    const double crossing = sx * y + x * sy;
+    if (crossing >= 0 && crossing <= l * (y + sy))
+      best = std::min(best, std::hypot(x - sx, y + sy));
+  }
+  const double nx = (db - da) / l;
+  if (std::abs(nx) < 1) {
+    const double ny = std::sqrt(1 - nx * nx);
+    const double crossing = x * ny - nx * y;
+    if (crossing >= 0 && crossing <= l * ny) best = std::min(best, da + nx * x + ny * y);
+  }
+  return best;
+}
+
+struct Growth {
+  Numbering nodes;
+  std::vector<double> distance;  // per numbered node
+};
+
+Growth march_from(const NodeMesh& mesh, const Numbering& core, double reach) {
+  Growth growth{Numbering(3 * core.keys().size()), {}};
+  const auto number = [&](Index node) {
+    const Index i = growth.nodes.find_or_add(node);
+    if (i == growth.distance.size()) growth.distance.push_back(kInfinity);
+    return i;
+  };
+  using Entry = std::pair<double, Index>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (const Index f : core.keys())
+    for (const Index v : mesh.faces[f]) growth.distance[number(v)] = 0;
+  for (Index i = 0; i < growth.distance.size(); ++i) {
+    const Index v = growth.nodes.keys()[i];
+    const bool inside = std::all_of(mesh.node_faces.begin() + mesh.node_offsets[v],
+                                    mesh.node_faces.begin() + mesh.node_offsets[v + 1],
+                                    [&](Index f) { return core.find(f) != kNone; });
+    if (!inside) queue.push({0, i});
+  }
+  while (!queue.empty()) {
+    const auto [d, i] = queue.top();
+    queue.pop();
+    if (d > growth.distance[i]) continue;
+    const Index v = growth.nodes.keys()[i];
+    for (Index at = mesh.node_offsets[v]; at < mesh.node_offsets[v + 1]; ++at) {
+      const Index f = mesh.node_faces[at];
+      const auto& l = mesh.lengths[f];
+      // Beyond this the face can neither be within reach nor help one that is.
+      if (d - std::max({l[0], l[1], l[2]}) > reach) continue;
+      const auto& corner = mesh.faces[f];
+      const std::array<Index, 3> n{number(corner[0]), number(corner[1]), number(corner[2])};
+      for (int k = 0; k < 3; ++k) {
+        const int a = (k + 1) % 3, b = (k + 2) % 3;
+        if (n[a] != i && n[b] != i) continue;
+        const double there =
+            distance_across(growth.distance[n[a]], growth.distance[n[b]], l[a], l[k], l[b]);
+        // A relative threshold, so that rounding cannot keep the march busy.
+        if (there >= growth.distance[n[k]] * (1 - 1e-9)) continue;
+        growth.distance[n[k]] = there;
+        queue.push({there, n[k]});
+      }
+    }
+  }
+  return growth;
+}
+
+// Whether the face can hold a point within reach: on each edge the distance is at least
+// (d_a + d_b - l) / 2, and paths enter the face over an edge.
+bool within(const Growth& growth, const NodeMesh& mesh, Index face, double reach) {
+  std::array<double, 3> d;
+  for (int k = 0; k < 3; ++k) {
+    const Index i = growth.nodes.find(mesh.faces[face][k]);
+    d[k] = i == kNone ? kInfinity : growth.distance[i];
+  }
+  for (int k = 0; k < 3; ++k)
+    if (d[k] + d[(k + 1) % 3] - mesh.lengths[face][k] <= 2 * reach) return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::vector<Index>> partition_faces(const NodeMesh& mesh,
+                                                const std::vector<double>& weights,
+                                                double target_weight) {
+  FaceSearch search(mesh);
+  std::vector<int> to_first(mesh.faces.size()), to_last(mesh.faces.size());
+  std::vector<std::vector<Index>> groups, pending;
+  Index labels = 0;
+  // Split faces of one label into connected pieces.
+  const auto split = [&](std::vector<Index>& faces) {
+    std::sort(faces.begin(), faces.end());
+    search.restart();
+    const std::size_t before = pending.size();
+    for (const Index f : faces)
+      if (!search.seen(f)) pending.push_back(search.reach(f));
+    for (std::size_t i = before; i < pending.size(); ++i, ++labels)
+      for (const Index f : pending[i]) search.label[f] = labels;
+    std::reverse(pending.begin() + before, pending.end());
+  };
+  std::vector<Index> all;
+  for (Index f = 0; f < mesh.faces.size(); ++f)
+    if (weights[f] > 0) all.push_back(f);
+  for (const Index f : all) search.label[f] = labels;
+  ++labels;
+  split(all);
+
+  while (!pending.empty()) {
+    std::vector<Index> piece = std::move(pending.back());
+    pending.pop_back();
+    double total = 0;
+    for (const Index f : piece) total += weights[f];
+    if (total <= 1.25 * target_weight || piece.size() == 1) {
+      std::sort(piece.begin(), piece.end());
+      groups.push_back(std::move(piece));
+      continue;
+    }
+    // Cut off the share that makes a whole number of groups on both sides.
+    const double parts = std::max(2.0, std::round(total / target_weight));
+    const double wanted = total * std::floor(parts / 2) / parts;
+    const std::vector<Index> order = order_between_ends(search, piece.front(), to_first, to_last);
+    std::size_t cut = 0;
+    for (double sum = 0;
+         cut + 1 < order.size() && (cut == 0 || sum + weights[order[cut]] <= wanted);)
+      sum += weights[order[cut++]];
+    std::vector<Index> near(order.begin(), order.begin() + cut),
+        far(order.begin() + cut, order.end());
+    for (const Index f : near) search.label[f] = labels;
+    ++labels;
+    split(far);
+    split(near);
+  }
+
+  std::vector<Index>& group_of = search.label;
+  for (Index g = 0; g < groups.size(); ++g)
+    for (const Index f : groups[g]) group_of[f] = g;
+  merge_small(mesh, weights, target_weight, groups, group_of);
+  for (auto& group : groups) std::sort(group.begin(), group.end());
+  return groups;
+}
+
+Patch grow_patch(const NodeMesh& mesh, const std::vector<Index>& core_faces, double reach) {
+  Numbering faces(4 * core_faces.size()), nodes(4 * core_faces.size());
+  for (const Index f : core_faces) faces.find_or_add(f);
+  const Growth growth = march_from(mesh, faces, reach);
+
+  std::vector<Index> halo;
+  for (const Index v : growth.nodes.keys())
+    for (Index at = mesh.node_offsets[v]; at < mesh.node_offsets[v + 1]; ++at)
+      halo.push_back(mesh.node_faces[at]);
+  std::sort(halo.begin(), halo.end());
+  halo.erase(std::unique(halo.begin(), halo.end()), halo.end());
+  for (const Index f : halo)
+    if (faces.find(f) == kNone && within(growth, mesh, f, reach)) faces.find_or_add(f);
+
+  Patch patch;
+  patch.faces = faces.keys();
+  patch.core_faces = Index(core_faces.size());
+  patch.corners.reserve(patch.faces.size());
+  patch.lengths.reserve(patch.faces.size());
+  for (Index i = 0; i < patch.faces.size(); ++i) {
+    const auto& corner = mesh.faces[patch.faces[i]];
+    const auto& l = mesh.lengths[patch.faces[i]];
+    patch.corners.push_back(
+        {nodes.find_or_add(corner[0]), nodes.find_or_add(corner[1]), nodes.find_or_add(corner[2])});
+    patch.lengths.push_back(l);
+    patch.longest_edge = std::max({patch.longest_edge, l[0], l[1], l[2]});
+    if (i + 1 == patch.core_faces) patch.core_nodes = Index(nodes.keys().size());
+  }
+  patch.nodes = nodes.keys();
+
+  if (!mesh.neighbours.empty()) {
+    patch.neighbours.assign(patch.faces.size(), {kNone, kNone, kNone});
+    for (Index i = 0; i < patch.faces.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const Index across = mesh.neighbours[patch.faces[i]][k];
+        if (across == kNone) continue;
+        const Index local = faces.find(across / 3);
+        if (local != kNone) patch.neighbours[i][k] = 3 * local + across % 3;
+      }
+  }
+  return patch;
+}
+
+}  // namespace onmesh

@@ -9,22 +9,28 @@ namespace onmesh {
 
 /// A group of core faces with its halo, as a complex of its own with local node numbers.
 struct Patch {
-  std::vector<Index> nodes;        ///< global node of each local node; the core's come first
-  Index core_nodes = 0;            ///< how many of them are corners of core faces
-  std::vector<Index> faces;        ///< global face of each local face; core faces come first
+  std::vector<Index> nodes;  ///< global node of each local node; the core's come first
+  Index core_nodes = 0;      ///< how many of them are corners of core faces
+  std::vector<Index> faces;  ///< global face of each local face; core faces come first
   Index core_faces = 0;
-  std::vector<std::array<Index, 3>> corners;   ///< per local face: local nodes
-  std::vector<std::array<double, 3>> lengths;  ///< per local face, as in NodeMesh
+  std::vector<std::array<Index, 3>> corners;     ///< per local face: local nodes
+  std::vector<std::array<double, 3>> lengths;    ///< per local face, as in NodeMesh
+  std::vector<std::array<Index, 3>> neighbours;  ///< as in NodeMesh with local faces; kNone outside
   double longest_edge = 0;
 };
 
-/// Group the faces that carry targets (weights > 0) into compact, connected groups of about
-/// `target_weight`, deterministic; faces of weight 0 are in no group.
-std::vector<std::vector<Index>> partition_faces(const NodeMesh& mesh, const std::vector<double>& weights,
+/// Group the faces that carry targets (weights > 0) into compact groups of about `target_weight`
+/// (at most 1.5 times that unless a face alone weighs more), each connected over shared nodes;
+/// faces of weight 0 are in no group. Deterministic; faces ascend within a group; O(faces log
+/// groups). \pre mesh.build_incidence() was called, one weight per face, target_weight > 0
+std::vector<std::vector<Index>> partition_faces(const NodeMesh& mesh,
+                                                const std::vector<double>& weights,
                                                 double target_weight);
 
-/// The core with every face within `reach` of it. The region is grown by the unfolding march from all
-/// core nodes at once, not along edges (edge paths overestimate and would miss nodes).
+/// The core with every face that has a point within `reach` of a point of the core. The region is
+/// grown by unfolding from the whole core at once, not along edges (edge paths overestimate and
+/// would miss faces). Costs time and memory for the patch only, whatever the size of the mesh. \pre
+/// mesh.build_incidence() was called; core faces are distinct
 Patch grow_patch(const NodeMesh& mesh, const std::vector<Index>& core_faces, double reach);
 
 }  // namespace onmesh
