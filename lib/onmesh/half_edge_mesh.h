@@ -1,8 +1,8 @@
 // The half-edge core: an OpenMesh mesh of a manifold, consistently wound TriangleMesh.
 #pragma once
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/Traits.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include "onmesh/triangle_mesh.h"
 

@@ -9,14 +9,16 @@
 
 namespace onmesh {
 
-/// One vertex property of a PLY file: a name and a value per vertex, written as double or int.
+/// One vertex property of a PLY file: a name and a value per vertex.
 struct PlyColumn {
   std::string name;
   std::vector<double> values;
+  bool integer = false;  ///< written as 32-bit int instead of double
 };
 
-/// Write binary little-endian PLY, atomically (temporary file beside the target, then rename).
-/// \pre all columns have the same length; face indices are within it
+/// Write binary little-endian PLY, atomically (temporary file beside the target, then rename). The
+/// comment "TextureFile NAME" names a texture that readers show on the columns u and v.
+/// \pre all columns have the same length, face indices are within it, integers fit 32 bits
 /// \throw FileError
 void write_ply(const std::filesystem::path& path, const std::vector<PlyColumn>& columns,
                const std::vector<std::array<Index, 3>>& faces = {},

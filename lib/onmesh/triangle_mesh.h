@@ -17,10 +17,10 @@ struct Material {
 /// corner, so that a seam is an edge whose two faces have different UV indices.
 struct TriangleMesh {
   std::vector<Vec3> positions;
-  std::vector<Vec2> uvs;                         ///< v points up, [0,1] is one tile
-  std::vector<std::array<Index, 3>> faces;       ///< into positions
-  std::vector<std::array<Index, 3>> face_uvs;    ///< into uvs, one per face; kNone = no UV there
-  std::vector<Index> face_materials;             ///< into materials, one per face; kNone = none
+  std::vector<Vec2> uvs;                       ///< v points up, [0,1] is one tile
+  std::vector<std::array<Index, 3>> faces;     ///< into positions
+  std::vector<std::array<Index, 3>> face_uvs;  ///< into uvs, one per face; kNone = no UV there
+  std::vector<Index> face_materials;           ///< into materials, one per face; kNone = none
   std::vector<Material> materials;
 
   /// All three corners of the face have a UV.
@@ -46,24 +46,28 @@ struct TriangleMesh {
 };
 
 /// Merge vertices of bitwise equal position and UVs of equal value (-0 counts as 0), and drop
-/// positions that no face uses. Faces keep their order.
+/// positions and UVs that no face uses. Faces keep their order, and so does what is left of the
+/// positions and UVs: a welded mesh stays as it is.
 TriangleMesh weld(const TriangleMesh& mesh);
 
 struct CleanReport {
   Index collapsed = 0;   ///< faces with a repeated vertex, dropped
-  Index duplicates = 0;  ///< faces on the same three vertices as an earlier one, dropped
+  Index duplicates = 0;  ///< faces on the same three vertices as an earlier one, dropped (also if
+                         ///< wound the other way: two-sided cloth)
+  Index fins = 0;        ///< faces dropped as fins: see clean()
   Index flipped = 0;     ///< faces whose winding was reversed
   std::vector<Index> kept;  ///< original face index of every face that is left
 };
 
 /// Make the mesh fit for a half-edge structure where that loses nothing: drop faces with repeated
 /// vertices and exact duplicates, then wind every component consistently (the winding of the
-/// majority of its area wins). UVs move with their corners.
-/// \throw InputError if a component cannot be oriented (Moebius strip); edges with three or more
+/// majority of its area wins). UVs move with their corners. Faces without area stay: they join
+/// their neighbours. Positions and UVs that no face uses any more are dropped. \throw InputError if
+/// a component cannot be oriented (Moebius strip); edges with three or more
 ///   faces are passed over here and refused by HalfEdgeMesh.
 TriangleMesh clean(const TriangleMesh& mesh, CleanReport* report = nullptr);
 
-/// The faces for which keep[face] is set, with unused positions dropped.
+/// The faces for which keep[face] is set, with unused positions and UVs dropped.
 TriangleMesh extract_faces(const TriangleMesh& mesh, const std::vector<bool>& keep);
 
 }  // namespace onmesh
