@@ -1,1 +1,2 @@
 #include <catch2/catch.hpp>
+

@@ -1,0 +1,98 @@
+#include "onmesh/surface_ball.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace onmesh {
+
+namespace {
+
+double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 edge = b - a;
+  const double length = edge.squaredNorm();
+  const double t = length > 0 ? std::clamp((p - a).dot(edge) / length, 0.0, 1.0) : 0.0;
+  return (a + t * edge - p).squaredNorm();
+}
+
+}  // namespace
+
+SurfaceBall::SurfaceBall(const TriangleMesh& mesh) : mesh_(mesh) {
+  const std::size_t corners = 3 * mesh.faces.size();
+  // Edges: corners sorted by their end points; runs of equal ends are one edge.
+  std::vector<std::uint64_t> ends(corners);
+  for (std::size_t c = 0; c < corners; ++c) {
+    const auto& f = mesh.faces[c / 3];
+    const auto [low, high] = std::minmax(f[c % 3], f[(c + 1) % 3]);
+    ends[c] = std::uint64_t(low) << 32 | high;
+  }
+  std::vector<std::size_t> order(corners);
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return ends[a] != ends[b] ? ends[a] < ends[b] : a < b;
+  });
+  corner_edges_.resize(corners);
+  edge_faces_.resize(corners);
+  for (std::size_t i = 0; i < corners; ++i) {
+    if (i == 0 || ends[order[i]] != ends[order[i - 1]]) edge_offsets_.push_back(Index(i));
+    corner_edges_[order[i]] = Index(edge_offsets_.size() - 1);
+    edge_faces_[i] = Index(order[i] / 3);
+  }
+  edge_marks_.assign(edge_offsets_.size(), 0);
+  edge_offsets_.push_back(Index(corners));
+
+  vertex_offsets_.assign(mesh.positions.size() + 1, 0);
+  for (const auto& f : mesh.faces)
+    for (const Index v : f) ++vertex_offsets_[v + 1];
+  std::partial_sum(vertex_offsets_.begin(), vertex_offsets_.end(), vertex_offsets_.begin());
+  vertex_faces_.resize(corners);
+  std::vector<Index> next(vertex_offsets_.begin(), vertex_offsets_.end() - 1);
+  for (std::size_t c = 0; c < corners; ++c)
+    vertex_faces_[next[mesh.faces[c / 3][c % 3]]++] = Index(c / 3);
+  face_marks_.assign(mesh.faces.size(), 0);
+  vertex_marks_.assign(mesh.positions.size(), 0);
+}
+
+void SurfaceBall::start_marks() {
+  if (++mark_ != 0) return;
+  // The counter wrapped around: marks of 2^32 calls ago must not count.
+  for (auto* marks : {&face_marks_, &edge_marks_, &vertex_marks_})
+    std::fill(marks->begin(), marks->end(), 0);
+  mark_ = 1;
+}
+
+void SurfaceBall::add(Index face) {
+  if (face_marks_[face] == mark_) return;
+  face_marks_[face] = mark_;
+  result_.push_back(face);
+}
+
+const std::vector<Index>& SurfaceBall::find(Index face, const Vec3& centre, double radius) {
+  start_marks();
+  result_.clear();
+  add(face);
+  const double limit = radius * radius;
+  for (std::size_t i = 0; i < result_.size(); ++i) {
+    const Index f = result_[i];
+    const auto& v = mesh_.faces[f];
+    std::array<bool, 3> inside;
+    for (std::size_t k = 0; k < 3; ++k) {
+      inside[k] = (mesh_.positions[v[k]] - centre).squaredNorm() < limit;
+      if (!inside[k] || vertex_marks_[v[k]] == mark_) continue;
+      vertex_marks_[v[k]] = mark_;
+      for (Index j = vertex_offsets_[v[k]]; j < vertex_offsets_[v[k] + 1]; ++j)
+        add(vertex_faces_[j]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t l = (k + 1) % 3;
+      if (inside[k] || inside[l]) continue;  // all its faces came with that vertex
+      const Index e = corner_edges_[3 * std::size_t(f) + k];
+      if (edge_marks_[e] == mark_) continue;
+      edge_marks_[e] = mark_;
+      if (squared_distance_to_segment(centre, mesh_.positions[v[k]], mesh_.positions[v[l]]) < limit)
+        for (Index j = edge_offsets_[e]; j < edge_offsets_[e + 1]; ++j) add(edge_faces_[j]);
+    }
+  }
+  return result_;
+}
+
+}  // namespace onmesh
