@@ -1,6 +1,7 @@
 // The bilateral kernel: sums over samples, weighted by geodesic distance and colour difference.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "onmesh/distance.h"
@@ -14,12 +15,13 @@ struct KernelOptions {
   double sigma_range = 0;    ///< value units; 0 = Gaussian filter (no range weight)
 };
 
-/// Colours of the samples: `channels` values per texel. Only the first `range_channels` take part in
-/// the colour difference; all are averaged.
+/// Colours of the texels: `channels` values each. Only the first `range_channels` take part in the
+/// colour difference (at least one unless the filter is Gaussian); all are averaged.
 struct Colours {
   const float* values = nullptr;
   int channels = 0;
-  int stride = 0;           ///< floats from one texel to the next
+  int range_channels = 0;
+  int stride = 0;  ///< floats from one texel to the next
 };
 
 /// Samples and targets of one patch by local face, with its table.
@@ -31,11 +33,21 @@ struct KernelInput {
   Colours colours;
 };
 
+struct KernelCounts {
+  std::uint64_t pairs = 0;           ///< (target, sample) pairs within the radius
+  std::uint64_t without_sample = 0;  ///< targets that kept their own texel's values
+};
+
 /// Filter all targets in the patch's core faces.
-/// \param out `channels` values per target, for core face 0's targets first, then core face 1's, ...
-///   in the order of `targets`; a target whose weights sum to nothing gets its own texel's values
-/// \return number of pairs within the radius
-std::uint64_t filter_patch(const KernelInput& input, const KernelOptions& options, std::vector<float>& out);
+///
+/// Samples with a channel that is not finite (or beyond 1e15 in units of sigma_range) have no
+/// weight, and targets with such a texel keep their own values; so do targets whose weights sum to
+/// nothing. The relative error of a weight is below 4e-6. Two faces between whose corners a table
+/// entry is kUnreachable exchange nothing. \param out `channels` values per target, for core face
+/// 0's targets first, then core face 1's, ...
+///   in the order of `targets`
+KernelCounts filter_patch(const KernelInput& input, const KernelOptions& options,
+                          std::vector<float>& out);
 
 /// The instruction set chosen at run time ("AVX3", "AVX2", ...).
 const char* kernel_target();
