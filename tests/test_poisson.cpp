@@ -124,6 +124,16 @@ TriangleMesh book(double page, double height, int n, int ny) {
   return mesh;
 }
 
+// Triangles that share nothing but one vertex, in a cone.
+TriangleMesh pinwheel(int n) {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}};
+  for (int i = 0; i < 2 * n; ++i)
+    mesh.positions.emplace_back(std::cos(i * kPi / n), std::sin(i * kPi / n), 0.5);
+  for (Index i = 0; i < Index(n); ++i) mesh.faces.push_back({0, 2 * i + 1, 2 * i + 2});
+  return mesh;
+}
+
 TriangleMesh join(const TriangleMesh& a, const TriangleMesh& b) {
   TriangleMesh mesh = a;
   mesh.positions.insert(mesh.positions.end(), b.positions.begin(), b.positions.end());
@@ -343,13 +353,10 @@ TEST_CASE("sheets that don't touch are sampled as if each were alone", "[poisson
   CHECK(min_distance(both, samples, sheet_of_face) >= spacing * (1 - 1e-12));
 }
 
-TEST_CASE("conflicts follow their definition on folds, books and bow ties", "[poisson]") {
-  TriangleMesh bow_tie;
-  bow_tie.positions = {{0, 0, 0}, {1, -0.3, 0}, {1, 0.3, 0}, {-1, -0.3, 0.1}, {-1, 0.3, -0.1}};
-  bow_tie.faces = {{0, 1, 2}, {0, 3, 4}};
+TEST_CASE("conflicts follow their definition on folds, books and pinwheels", "[poisson]") {
   const double spacing = 0.1;
   for (const TriangleMesh& mesh : {u_sheet(0.4, 0.3, 0.03, 5, 4), u_sheet(0.4, 0.3, 0.08, 1, 1),
-                                   book(0.5, 0.3, 5, 3), bow_tie}) {
+                                   book(0.5, 0.3, 5, 3), pinwheel(2), pinwheel(12)}) {
     const auto samples = sample(mesh, spacing);
     CAPTURE(mesh.faces.size(), samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i)
@@ -368,7 +375,7 @@ TEST_CASE("conflicts follow their definition on folds, books and bow ties", "[po
 
 TEST_CASE("faces in a ball are those that a flood of all faces finds", "[poisson]") {
   for (const TriangleMesh& mesh :
-       {u_sheet(0.4, 0.3, 0.03, 5, 4), book(0.5, 0.3, 5, 3), sphere(2)}) {
+       {u_sheet(0.4, 0.3, 0.03, 5, 4), book(0.5, 0.3, 5, 3), sphere(2), pinwheel(12)}) {
     SurfaceBall ball(mesh);
     for (const double radius : {0.01, 0.1, 0.4, 5.0})
       for (const auto& p : random_points(mesh, 20, 8)) {

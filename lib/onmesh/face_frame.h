@@ -9,8 +9,8 @@
 
 namespace onmesh {
 
-// A face in its own plane: the longest edge runs along x from the origin, the third corner is
-// above.
+/// A face in its own plane: the longest edge runs along x from the origin, and the third corner is
+/// above it, so that the bounding box is tight however thin the face is.
 struct FaceFrame {
   FaceFrame(Index index, const std::array<Vec3, 3>& corners) : face(index) {
     double squared = -1;
@@ -32,7 +32,6 @@ struct FaceFrame {
     apex_x = side.dot(x_axis);
   }
 
-  double area() const { return 0.5 * size.x() * size.y(); }
   Vec3 position(const Vec2& p) const { return origin + p.x() * x_axis + p.y() * y_axis; }
   /// In the order of the frame: of the origin, the end of the longest edge, and the apex.
   Vec3 frame_barycentric(const Vec2& p) const {
