@@ -1,1 +1,125 @@
-int main() { return 0; }
+// The onmesh program: picks the subcommand and turns errors into messages and exit codes.
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <new>
+#include <stdexcept>
+
+#include "command.h"
+
+namespace {
+
+using namespace onmesh::tools;
+
+enum ExitCode { kUsage = 2, kInput = 3, kFile = 4, kSignal = 128 };
+
+struct Entry {
+  const char* name;
+  Run run;
+  const char* summary;
+};
+
+constexpr Entry kCommands[] = {
+    {"filter", run_filter, "filter a texture on the mesh's surface"},
+    {"info", run_info, "report what is special or wrong about a mesh and its atlas"},
+    {"view", run_view, "render the textured mesh as a picture"},
+    {"compare", run_compare, "measure how two textures differ, and how visible seams are"},
+    {"distance", run_distance, "compute geodesic distances from a point"},
+    {"refine", run_refine, "write the nodes that distances are computed between"},
+    {"map", run_map, "write which texel lies where on the surface"},
+    {"sample", run_sample, "write Poisson-disk samples of the surface"},
+    {"make-mesh", run_make_mesh, "make a textured test mesh"},
+};
+
+void print_help(std::ostream& out) {
+  out << "usage: onmesh COMMAND [arguments]\n\n"
+         "Filters textures on the surface of triangle meshes.\n\n"
+         "Commands:\n";
+  for (const Entry& command : kCommands) {
+    out << "  " << command.name << std::string(12 - std::string(command.name).size(), ' ')
+        << command.summary << '\n';
+  }
+  out << "\n"
+         "  onmesh COMMAND --help   what a command takes, with examples\n"
+         "  onmesh --version        the program's version\n\n"
+         "Exit codes: 0 done, 1 a check that was asked for failed, 2 wrong usage, 3 wrong input,\n"
+         "4 a file cannot be read or written, 130 interrupted, 143 terminated.\n";
+}
+
+const Entry& find_command(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Entry& command : kCommands) {
+    if (name == command.name) return command;
+    names.emplace_back(command.name);
+  }
+  const bool option = !name.empty() && name[0] == '-';
+  std::string message = std::string("unknown ") + (option ? "option '" : "command '") + name + "'";
+  if (const auto nearest = nearest_name(name, names))
+    message += " (did you mean " + *nearest + "?)";
+  throw onmesh::UsageError(message + "; see onmesh --help");
+}
+
+int run(const std::vector<std::string>& arguments, std::string& name) {
+  if (arguments.empty()) {
+    print_help(std::cerr);
+    return kUsage;
+  }
+  std::string first = arguments[0];
+  std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
+  const bool help = first == "help" || first == "--help" || first == "-h";
+  if (help && rest.empty()) {
+    print_help(std::cout);
+    return 0;
+  }
+  if (first == "--version") {
+    std::cout << "onmesh " ONMESH_VERSION "\n";
+    return 0;
+  }
+  if (help) {
+    first = rest[0];
+    rest = {"--help"};
+  }
+  const Entry& command = find_command(first);
+  name = command.name;
+  return command.run(rest);
+}
+
+// One line on stderr, whatever the message holds.
+int fail(const std::string& name, std::string message, int code) {
+  for (char& c : message) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  while (!message.empty() && message.back() == ' ') message.pop_back();
+  std::cerr << "onmesh" << (name.empty() ? "" : " ") << name << ": " << message << '\n';
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string name;
+  int code = 0;
+  install_signal_handlers();
+  try {
+    code = run({argv + std::min(argc, 1), argv + argc}, name);
+    std::cout.flush();
+    if (!std::cout) throw onmesh::FileError("standard output: cannot write");
+  } catch (const Interrupted&) {
+    // The destructors have removed what was half written.
+  } catch (const onmesh::UsageError& error) {
+    code = fail(name, error.what(), kUsage);
+  } catch (const onmesh::FileError& error) {
+    code = fail(name, error.what(), kFile);
+  } catch (const std::filesystem::filesystem_error& error) {
+    code = fail(name, error.path1().string() + ": " + error.code().message(), kFile);
+  } catch (const std::bad_alloc&) {
+    code = fail(name, "not enough memory", kInput);
+  } catch (const std::exception& error) {
+    code = fail(name, error.what(), kInput);
+  }
+  if (interrupted() != 0) {
+    fail(name, interrupted() == SIGINT ? "interrupted" : "terminated", 0);
+    return kSignal + interrupted();
+  }
+  return code;
+}

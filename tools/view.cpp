@@ -1,1 +1,163 @@
+// onmesh view: a picture of the textured model, before and after, or of distances.
+#include <cmath>
+#include <map>
+#include <memory>
+
 #include "command.h"
+#include "onmesh/image.h"
+#include "onmesh/mesh_io.h"
+#include "onmesh/render.h"
+#include "ply_column.h"
+
+namespace onmesh::tools {
+namespace {
+
+Command make_command() {
+  Command command;
+  command.name = "view";
+  command.synopsis = "MESH -o PICTURE [-t TEXTURE [--after TEXTURE]] [options]";
+  command.summary =
+      "Renders the mesh with a texture, or with the textures of its own materials without -t; "
+      "with\n"
+      "--after a second picture beside it; or coloured by a scalar per vertex with isolines.";
+  command.examples =
+      "  onmesh view cube.obj -t cube.png --after filtered.png -o picture.png\n"
+      "  onmesh view cube.obj --azimuth -30 --elevation 60 --no-light -o top.png\n"
+      "  onmesh view cube.obj --distance-ply distance.ply --isolines 0.1 -o distance.png\n";
+  auto add = command.options.add_options();
+  add("mesh", text());
+  add("output,o", text(), "the picture to write");
+  add("texture,t", text(), "texture for all faces (default: what the mesh's materials name)");
+  add("after", text(), "another texture, shown beside the first");
+  add("distance-ply", text(),
+      "PLY with a scalar per vertex of the mesh, as onmesh distance writes it");
+  add("property", text("distance"), "which property of that PLY");
+  add("isolines", text(), "step of the isolines (default: a twentieth of the range; 0 = none)");
+  add("size", text("800"), "pixels per side of each picture, 1 to 16384");
+  add("azimuth", text("35"), "degrees around the up axis");
+  add("elevation", text("25"), "degrees above the horizon, -90 to 90");
+  add("zoom", text("1"), "1 = the model fills the picture");
+  add("up", text("y"), "the axis that points up: x, y, z, -x, -y or -z");
+  add("supersampling", text("2"), "samples per pixel and direction, 1 to 8");
+  add("no-light", flag(), "texture values as they are, without shading");
+  add("wireframe", flag(), "draw the mesh's edges");
+  add("face-materials", flag(), "one flat colour per material");
+  command.positional.add("mesh", 1);
+  return command;
+}
+
+Vec3 axis(const std::string& name) {
+  const bool minus = !name.empty() && name[0] == '-';
+  const std::string letter = name.substr(minus ? 1 : 0);
+  const double sign = minus ? -1 : 1;
+  if (letter == "x") return {sign, 0, 0};
+  if (letter == "y") return {0, sign, 0};
+  if (letter == "z") return {0, 0, sign};
+  throw UsageError("--up: '" + name + "' is not x, y, z, -x, -y or -z");
+}
+
+RenderOptions render_options(const po::variables_map& values) {
+  RenderOptions options;
+  options.width = options.height = int(integer_of(values, "size", 1, 16384));
+  options.azimuth_degrees = number_of(values, "azimuth", -1e6, 1e6);
+  options.elevation_degrees = number_of(values, "elevation", -90, 90);
+  options.zoom = number_of(values, "zoom", 1e-3, 1000);
+  options.supersampling = int(integer_of(values, "supersampling", 1, 8));
+  options.light = !flag_of(values, "no-light");
+  options.wireframe = flag_of(values, "wireframe");
+  options.up = axis(text_of(values, "up"));
+  return options;
+}
+
+void refuse_together(const po::variables_map& values, const std::string& a, const std::string& b) {
+  const auto given = [&](const std::string& name) {
+    return has(values, name) && !values[name].defaulted() &&
+           (name != "face-materials" || flag_of(values, name));
+  };
+  if (given(a) && given(b)) throw UsageError("--" + a + " and --" + b + " exclude each other");
+}
+
+// The textures that the mesh's materials name, each read once.
+class MaterialTextures {
+ public:
+  explicit MaterialTextures(const TriangleMesh& mesh) {
+    for (const Material& material : mesh.materials) {
+      if (material.texture.empty()) {
+        pointers.push_back(nullptr);
+        continue;
+      }
+      std::unique_ptr<Image>& image = images_[material.texture];
+      if (image == nullptr) image = std::make_unique<Image>(read_image(material.texture));
+      pointers.push_back(image.get());
+    }
+  }
+  std::vector<const Image*> pointers;
+
+ private:
+  std::map<std::string, std::unique_ptr<Image>> images_;
+};
+
+}  // namespace
+
+int run_view(const std::vector<std::string>& arguments) {
+  const Command command = make_command();
+  po::variables_map values;
+  if (!parse(command, arguments, values)) return 0;
+  if (!has(values, "mesh"))
+    throw UsageError("MESH is missing; usage: onmesh view " + command.synopsis);
+  const std::string output = text_of(values, "output");
+  const RenderOptions options = render_options(values);
+  for (const char* other : {"texture", "after", "face-materials"})
+    refuse_together(values, "distance-ply", other);
+  for (const char* other : {"texture", "after"}) refuse_together(values, "face-materials", other);
+  for (const char* name : {"property", "isolines"}) {
+    if (has(values, name) && !values[name].defaulted() && !has(values, "distance-ply"))
+      throw UsageError(std::string("--") + name + " needs --distance-ply");
+  }
+  check_writable_image(output, make_image(1, 1, 3));
+
+  std::vector<std::string> warnings;
+  const TriangleMesh mesh = read_mesh(text_of(values, "mesh"), &warnings);
+  warn(warnings);
+  check_interrupted();
+
+  std::vector<Image> pictures;
+  RenderColour colour;
+  colour.by_material = flag_of(values, "face-materials");
+  if (has(values, "distance-ply")) {
+    const std::string property = text_of(values, "property");
+    const std::vector<double> scalar = read_ply_column(text_of(values, "distance-ply"), property);
+    if (scalar.size() != mesh.positions.size())
+      throw InputError("--distance-ply: " + text_of(values, "distance-ply") + " has " +
+                       std::to_string(scalar.size()) + " vertices, the mesh has " +
+                       std::to_string(mesh.positions.size()));
+    colour.scalar = &scalar;
+    if (has(values, "isolines")) colour.isoline_step = number_of(values, "isolines", 0, 1e300);
+    if (has(values, "isolines") && colour.isoline_step == 0) colour.isoline_step = -1;
+    pictures.push_back(render(mesh, colour, options));
+  } else if (has(values, "texture") || colour.by_material) {
+    Image texture;
+    if (has(values, "texture")) texture = read_image(text_of(values, "texture"));
+    if (has(values, "texture")) colour.texture = &texture;
+    pictures.push_back(render(mesh, colour, options));
+  } else {
+    const MaterialTextures textures(mesh);
+    colour.material_textures = textures.pointers;
+    pictures.push_back(render(mesh, colour, options));
+  }
+  check_interrupted();
+  if (has(values, "after")) {
+    const Image after = read_image(text_of(values, "after"));
+    colour.texture = &after;
+    pictures.push_back(render(mesh, colour, options));
+  }
+  check_interrupted();
+  ImageWriteOptions eight_bits;
+  eight_bits.bits = 8;
+  warnings.clear();
+  write_image(output, beside(pictures), eight_bits, &warnings);
+  warn(warnings);
+  return 0;
+}
+
+}  // namespace onmesh::tools
