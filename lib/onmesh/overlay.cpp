@@ -1,1 +1,225 @@
 #include "onmesh/overlay.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "onmesh/intrinsic.h"
+
+namespace onmesh {
+namespace {
+
+using Corners = std::array<Vec2, 3>;
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+struct Circle {
+  Vec2 centre;
+  double radius;
+};
+
+Circle incircle(const Corners& at) {
+  const double a = (at[2] - at[1]).norm(), b = (at[0] - at[2]).norm(), c = (at[1] - at[0]).norm();
+  const double perimeter = a + b + c;
+  return {(a * at[0] + b * at[1] + c * at[2]) / perimeter,
+          std::abs(cross(at[1] - at[0], at[2] - at[0])) / perimeter};
+}
+
+// Lays out the intrinsic faces over one input face after the other.
+class Layouter {
+ public:
+  explicit Layouter(const IntrinsicTriangulation& triangulation)
+      : t_(triangulation), newest_(triangulation.edges().face_count(), Seen{kNone, kNone}) {}
+
+  void lay_out(Index face, std::vector<OverlayPiece>& pieces) {
+    face_ = face;
+    input_ = t_.input_layout(face);
+    placed_.clear();
+    margin_ = 1e-8 * smallest_altitude();
+    start();
+    // The bound only matters where rounding has the better of a face (heights of 1e-8 its length).
+    for (std::size_t i = 0; i < std::min(placed_.size(), 64 + 4 * newest_.size()); ++i) {
+      for (Index k = 0; k < 3; ++k) cross_edge(i, k);
+    }
+    for (const Placed& p : placed_) {
+      const double twice_area = cross(p.at[1] - p.at[0], p.at[2] - p.at[0]);
+      if (!(twice_area > 0)) continue;
+      OverlayPiece piece{p.face, {}};
+      for (int c = 0; c < 3; ++c) {
+        const Vec2& x = input_[static_cast<std::size_t>(c)];
+        piece.to_node.col(c) =
+            Vec3(cross(p.at[1] - x, p.at[2] - x), cross(p.at[2] - x, p.at[0] - x),
+                 cross(p.at[0] - x, p.at[1] - x)) /
+            twice_area;
+      }
+      pieces.push_back(piece);
+    }
+  }
+
+ private:
+  struct Placed {
+    Index face;
+    Corners at;
+    Index older;  // the same face's previous placement here
+  };
+  struct Seen {
+    Index input_face, placed;
+  };
+
+  double smallest_altitude() const {
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      longest = std::max(longest, (input_[(k + 1) % 3] - input_[k]).norm());
+    return cross(input_[1] - input_[0], input_[2] - input_[0]) / longest;
+  }
+
+  // The intrinsic face at the input face's corner 0 that holds the middle of the corner's wedge.
+  void start() {
+    const HalfEdges& e = t_.edges();
+    const Index corner = 3 * face_, v = t_.input().tail[corner];
+    const double from = t_.input_direction(corner),
+                 middle = from + 0.5 * t_.input().corner_angle(corner);
+    const double total = t_.total_angle(v);
+    const bool closed = !t_.on_boundary(v);
+    const Index first = t_.outgoing(v);
+    Index best = first;
+    double least = 1e300;
+    for (Index h = first;;) {
+      double behind = middle - t_.direction(h);
+      if (closed && behind < 0) behind += total;
+      if (behind >= 0 && behind < least) {
+        least = behind;
+        best = h;
+      }
+      h = e.rotate(h);
+      if (h == kNone || h == first) break;
+    }
+    const double turn = middle - least - from;
+    const Vec2 tip = input_[0] + e.length[best] * Vec2(std::cos(turn), std::sin(turn));
+    Placed p{HalfEdges::face(best), {}, kNone};
+    const Index k = best % 3;
+    p.at[k] = input_[0];
+    p.at[(k + 1) % 3] = anchored(e.tip(best), tip, e.length[best]);
+    p.at[(k + 2) % 3] =
+        anchored(e.tail[HalfEdges::prev(best)], e.opposite(best, p.at[k], p.at[(k + 1) % 3]),
+                 e.length[HalfEdges::prev(best)]);
+    place(p);
+  }
+
+  // A laid-out node that lies in this input face is put where it is known to be, so that rounding
+  // does not add up from face to face.
+  Vec2 anchored(Index node, const Vec2& laid_out, double scale) const {
+    const auto settle = [&](const Vec2& known) {
+      return (known - laid_out).norm() < 1e-6 * scale ? known : laid_out;
+    };
+    if (node < t_.input_vertex_count()) {
+      for (Index k = 0; k < 3; ++k) {
+        if (t_.input().tail[3 * face_ + k] == node && (input_[k] - laid_out).norm() < 1e-6 * scale)
+          return input_[k];
+      }
+      return laid_out;
+    }
+    const SurfacePoint& p = t_.location(node);
+    if (p.face != face_) return laid_out;
+    return settle(input_[0] * p.barycentric[0] + input_[1] * p.barycentric[1] +
+                  input_[2] * p.barycentric[2]);
+  }
+
+  void place(Placed p) {
+    Seen& seen = newest_[p.face];
+    if (seen.input_face == face_) {
+      // Two placements side by side have their incircles apart.
+      const Circle circle = incircle(p.at);
+      for (Index i = seen.placed; i != kNone; i = placed_[i].older) {
+        if ((incircle(placed_[i].at).centre - circle.centre).norm() <= circle.radius) return;
+      }
+      p.older = seen.placed;
+    }
+    seen = {face_, static_cast<Index>(placed_.size())};
+    placed_.push_back(p);
+  }
+
+  // Go on over edge k of a placed face if a piece of it runs through the inside of the input face.
+  void cross_edge(std::size_t placed, Index k) {
+    const HalfEdges& e = t_.edges();
+    const Index twin = e.twin[3 * placed_[placed].face + k];
+    if (twin == kNone) return;
+    const Vec2 a = placed_[placed].at[k], b = placed_[placed].at[(k + 1) % 3];
+    double enter = 0,
+           leave = 1;  // the part of a + t (b - a) inside, at least `margin_` from each side
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 side = input_[(i + 1) % 3] - input_[i];
+      const double length = side.norm();
+      const double at_a = cross(side, a - input_[i]) / length - margin_,
+                   at_b = cross(side, b - input_[i]) / length - margin_;
+      if (at_a <= 0 && at_b <= 0) return;
+      if (at_a < 0) enter = std::max(enter, at_a / (at_a - at_b));
+      if (at_b < 0) leave = std::min(leave, at_a / (at_a - at_b));
+    }
+    if (!(enter < leave)) return;
+    Placed p{HalfEdges::face(twin), {}, kNone};
+    const Index j = twin % 3;
+    p.at[j] = b;
+    p.at[(j + 1) % 3] = a;
+    p.at[(j + 2) % 3] =
+        anchored(e.tail[HalfEdges::prev(twin)], e.opposite(twin, b, a), e.length[twin]);
+    place(p);
+  }
+
+  const IntrinsicTriangulation& t_;
+  std::vector<Seen> newest_;  // per intrinsic face
+  std::vector<Placed> placed_;
+  Index face_ = 0;
+  Corners input_;
+  double margin_ = 0;
+};
+
+}  // namespace
+
+NodePoint Overlay::locate(const SurfacePoint& point) const {
+  NodePoint best;
+  double most = -1e300;
+  for (Index i = face_offsets[point.face]; i < face_offsets[point.face + 1]; ++i) {
+    const Vec3 b = pieces[i].to_node * point.barycentric;
+    const double least = b.minCoeff();
+    if (least > most) {
+      most = least;
+      best = {pieces[i].node_face, b};
+    }
+  }
+  if (best.face != kNone) {
+    best.barycentric = best.barycentric.cwiseMax(0.0);
+    best.barycentric /= best.barycentric.sum();
+  }
+  return best;
+}
+
+Overlay make_overlay(const IntrinsicTriangulation& triangulation) {
+  const Index faces = triangulation.input().face_count();
+  // A few large blocks: every block keeps marks for all intrinsic faces.
+  const Index blocks = std::clamp<Index>(faces / 2048, 1, 16), size = (faces + blocks - 1) / blocks;
+  std::vector<std::vector<OverlayPiece>> pieces(blocks);
+  std::vector<Index> counts(faces, 0);
+  tbb::parallel_for(Index{0}, blocks, [&](Index block) {
+    Layouter layouter(triangulation);
+    for (Index f = block * size; f < std::min(faces, (block + 1) * size); ++f) {
+      const std::size_t before = pieces[block].size();
+      layouter.lay_out(f, pieces[block]);
+      counts[f] = static_cast<Index>(pieces[block].size() - before);
+    }
+  });
+  Overlay overlay;
+  overlay.face_offsets.assign(faces + 1, 0);
+  for (Index f = 0; f < faces; ++f)
+    overlay.face_offsets[f + 1] = overlay.face_offsets[f] + counts[f];
+  overlay.pieces.reserve(overlay.face_offsets[faces]);
+  for (auto& block : pieces) {
+    overlay.pieces.insert(overlay.pieces.end(), block.begin(), block.end());
+    block = {};
+  }
+  return overlay;
+}
+
+}  // namespace onmesh

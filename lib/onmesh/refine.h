@@ -7,11 +7,12 @@
 namespace onmesh {
 
 struct RefineOptions {
-  double spacing = 0;            ///< node spacing where the surface is smooth, mesh units, > 0
-  double finest = 0;             ///< spacing at cones, creases and reflex corners, (0, spacing]; 0 = spacing / 4
-  double growth = 0.35;          ///< how fast the spacing grows away from them, per unit of distance
-  double min_angle_degrees = 25; ///< Delaunay refinement's angle bound, [0, 30]
-  Index max_nodes = 200'000'000; ///< stop with an InputError beyond
+  double spacing = 0;  ///< node spacing where the surface is smooth, mesh units, > 0
+  double finest =
+      0;  ///< spacing at cones, creases and reflex corners, (0, spacing]; 0 = spacing / 4
+  double growth = 0.35;  ///< how fast the spacing grows away from them, per unit of distance
+  double min_angle_degrees = 25;  ///< Delaunay refinement's angle bound, [0, 30]
+  Index max_nodes = 200'000'000;  ///< stop with an InputError beyond
 };
 
 struct RefineReport {
@@ -22,7 +23,7 @@ struct RefineReport {
 
 /// Intrinsic Delaunay refinement of the mesh (Sharp, Soliman & Crane 2019, section 4.2; Chew 1993).
 /// Original vertices stay nodes, with the same indices.
-NodeSurface refine(const TriangleMesh& mesh, const HalfEdgeMesh& half_edges, const RefineOptions& options,
-                   RefineReport* report = nullptr);
+NodeSurface refine(const TriangleMesh& mesh, const HalfEdgeMesh& half_edges,
+                   const RefineOptions& options, RefineReport* report = nullptr);
 
 }  // namespace onmesh

@@ -1,7 +1,7 @@
 // Basic types shared by every stage.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 
