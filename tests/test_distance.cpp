@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <sstream>
 #include <thread>
 
@@ -329,6 +330,50 @@ TEST_CASE("unfold and heat agree with exact distances", "[distance]") {
     CAPTURE(heat.mean, heat.p99, heat.max);
     CHECK(heat.mean < c.heat);
   }
+}
+
+TEST_CASE("distances reach the far side of a mesh", "[distance]") {
+  const TriangleMesh mesh = icosphere(4);
+  const NodeMesh nodes = make_node_mesh(mesh);
+  Patch patch = whole(nodes);
+  patch.core_nodes = 8;
+  const auto truth = [&](Index a, Index b) {
+    const Vec3 &p = mesh.positions[a], &q = mesh.positions[b];
+    return std::atan2(p.cross(q).norm(), p.dot(q));
+  };
+  for (const auto& backend : {make_unfold(), make_heat()})
+    for (const double reach : {4.0, 1e6, std::numeric_limits<double>::infinity()}) {
+      const Errors errors = compare(fill(*backend, patch, reach), reach, truth);
+      CAPTURE(backend->name(), reach, errors.mean);
+      CHECK(errors.count == 8 * nodes.nodes.size());
+      CHECK(errors.mean < 0.03);
+    }
+}
+
+TEST_CASE("unfold goes around reflex corners", "[distance]") {
+  // An L of two unit squares' width: the corner at (1, 1) is reflex.
+  TriangleMesh mesh = plane(16, 16, 2, 2);
+  std::erase_if(mesh.faces, [&](const auto& f) {
+    const Vec3 centre = (mesh.positions[f[0]] + mesh.positions[f[1]] + mesh.positions[f[2]]) / 3;
+    return centre.x() > 1 && centre.y() > 1;
+  });
+  const NodeMesh nodes = make_node_mesh(mesh);
+  const Vec3 corner(1, 1, 0);
+  const auto used = [&](Index v) { return nodes.nodes[v].face != kNone; };
+  const auto truth = [&](Index a, Index b) {
+    if (!used(a) || !used(b)) return 1e9;
+    const Vec3 p = mesh.positions[a] - corner, q = mesh.positions[b] - corner;
+    // Blocked if the segment passes through the missing square.
+    for (int i = 1; i < 64; ++i) {
+      const Vec3 x = p + (q - p) * i / 64;
+      if (x.x() > 1e-9 && x.y() > 1e-9) return p.norm() + q.norm();
+    }
+    return (p - q).norm();
+  };
+  const Errors errors = compare(fill(*make_unfold(), whole(nodes), 0.4), 0.4, truth);
+  CAPTURE(errors.mean, errors.p99, errors.max);
+  CHECK(errors.mean < 0.002 * 0.125);
+  CHECK(errors.max < 0.2 * 0.125);
 }
 
 TEST_CASE("unfold agrees with exact distances on a real mesh", "[distance]") {
