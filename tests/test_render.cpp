@@ -99,33 +99,34 @@ TEST_CASE("the nearer face hides the farther one, whatever their order", "[rende
 }
 
 TEST_CASE("every sample of a triangulated square belongs to exactly one face", "[render]") {
-  for (const int n : {1, 7, 40}) {
+  constexpr int kSize = 120;
+  for (const int n : {1, 7, 20}) {
     // On a grid of samples, and shaken; seen from the front, from behind and slanted.
     for (const TriangleMesh& mesh : {make_plane(n, n), shaken_plane(n)}) {
       for (const double azimuth : {0.0, 180.0, 33.0}) {
-        RenderOptions options = facing(200);
+        RenderOptions options = facing(kSize);
         options.azimuth_degrees = azimuth;
         const Camera camera(mesh, options);
-        std::vector<int> count(200 * 200);
+        std::vector<int> count(kSize * kSize);
         for (Index f = 0; f < mesh.faces.size(); ++f) {
           auto corners = mesh.corners(f);
           for (Vec3& p : corners) p = camera.project(p);
-          RasterBand band{200, 0, 200, std::vector<Index>(count.size(), kNone),
+          RasterBand band{kSize, 0, kSize, std::vector<Index>(count.size(), kNone),
                           std::vector<double>(count.size())};
           draw(make_screen_triangle(corners, 1), f, band);
           for (std::size_t i = 0; i < count.size(); ++i) count[i] += band.face[i] != kNone;
         }
         long inside = 0;
         bool exactly_once = true;
-        for (int y = 0; y < 200; ++y) {
-          const auto row = count.begin() + y * 200;
-          const auto first = std::find_if(row, row + 200, [](int c) { return c > 0; });
-          auto last = row + 200;
+        for (int y = 0; y < kSize; ++y) {
+          const auto row = count.begin() + y * kSize;
+          const auto first = std::find_if(row, row + kSize, [](int c) { return c > 0; });
+          auto last = row + kSize;
           while (last > first && *(last - 1) == 0) --last;
           for (auto c = first; c < last; ++c, ++inside) exactly_once = exactly_once && *c == 1;
         }
         CHECK(exactly_once);
-        CHECK(inside > 10000);
+        CHECK(inside > 3000);
       }
     }
   }

@@ -1,6 +1,7 @@
 #include "command.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <iostream>
@@ -60,15 +61,29 @@ std::string unknown_option(const po::options_description& options, const std::st
   return message;
 }
 
-bool is_option_name(const po::options_description& options, const std::string& token) {
-  if (token.size() < 2 || token[0] != '-') return false;
+// The option that the token names in full, if any.
+const po::option_description* named_option(const po::options_description& options,
+                                           const std::string& token) {
+  if (token.size() < 2 || token[0] != '-') return nullptr;
   for (const auto& option : options.options()) {
     const std::string short_name =
         option->canonical_display_name(po::command_line_style::allow_dash_for_short);
     if (token == "--" + option->long_name() || (token.size() == 2 && token == short_name))
-      return true;
+      return option.get();
   }
-  return false;
+  return nullptr;
+}
+
+// The parser takes whatever follows an option as its value, even another option.
+void check_values_follow(const po::options_description& options,
+                         const std::vector<std::string>& arguments) {
+  for (std::size_t i = 0; i + 1 < arguments.size() && arguments[i] != "--"; ++i) {
+    const po::option_description* option = named_option(options, arguments[i]);
+    if (option == nullptr || option->semantic()->max_tokens() == 0) continue;
+    if (named_option(options, arguments[i + 1]) != nullptr)
+      throw UsageError("option '" + arguments[i] + "' needs a value");
+    ++i;
+  }
 }
 
 double parse_plain_number(const std::string& flag, const std::string& whole,
@@ -99,6 +114,7 @@ bool parse(const Command& command, const std::vector<std::string>& arguments,
   po::options_description options;
   options.add(command.options);
   options.add_options()("help,h", "show this help");
+  check_values_follow(options, arguments);
   try {
     namespace style = po::command_line_style;
     const int unix_without_guessing = style::allow_short | style::short_allow_adjacent |
@@ -115,14 +131,6 @@ bool parse(const Command& command, const std::vector<std::string>& arguments,
         print_help(command);
         return false;
       }
-    }
-    for (const auto& option : parsed.options) {
-      // The parser takes whatever follows as the value, even another option.
-      const bool apart = option.position_key < 0 && option.original_tokens.size() > 1;
-      if (apart && is_option_name(options, option.original_tokens[1]))
-        throw UsageError("option '" + option.original_tokens[0] + "' needs a value");
-      if (option.position_key >= 0 && !option.value.empty() && option.value[0].empty())
-        throw UsageError("an argument is empty");
     }
     po::store(parsed, values);
     po::notify(values);
@@ -149,9 +157,19 @@ bool has(const po::variables_map& values, const std::string& name) {
 }
 
 std::string text_of(const po::variables_map& values, const std::string& name) {
-  const std::string value = has(values, name) ? values[name].as<std::string>() : "";
-  if (value.empty()) throw UsageError("'" + name + "' is missing");
+  if (!has(values, name)) throw UsageError(dashed(name) + " is missing");
+  const auto value = values[name].as<std::string>();
+  if (value.empty()) throw UsageError(dashed(name) + ": is empty");
   return value;
+}
+
+std::string argument_of(const Command& command, const po::variables_map& values,
+                        const std::string& name) {
+  const std::string value = has(values, name) ? values[name].as<std::string>() : "";
+  if (!value.empty()) return value;
+  std::string upper = name;
+  for (char& c : upper) c = char(std::toupper(static_cast<unsigned char>(c)));
+  throw UsageError(upper + " is missing; usage: onmesh " + command.name + " " + command.synopsis);
 }
 
 bool flag_of(const po::variables_map& values, const std::string& name) {

@@ -59,8 +59,11 @@ bool parse(const Command& command, const std::vector<std::string>& arguments,
            po::variables_map& values);
 
 bool has(const po::variables_map& values, const std::string& name);
-/// \throw UsageError "... is missing" if the option or positional was not given or is empty
+/// \throw UsageError if the option was not given and has no default, or is empty
 std::string text_of(const po::variables_map& values, const std::string& name);
+/// The same for a positional argument; the message shows the usage.
+std::string argument_of(const Command& command, const po::variables_map& values,
+                        const std::string& name);
 bool flag_of(const po::variables_map& values, const std::string& name);
 /// \throw UsageError naming the option unless its value is a number from [low, high] (not NaN)
 double number_of(const po::variables_map& values, const std::string& name, double low, double high);

@@ -2,8 +2,8 @@
 #include "onmesh/shapes.h"
 
 #include <algorithm>
-#include <iostream>
 #include <set>
+#include <string_view>
 
 #include "command.h"
 #include "onmesh/image.h"
@@ -189,10 +189,8 @@ int run_make_mesh(const std::vector<std::string>& arguments) {
   const Command command = make_command();
   po::variables_map values;
   if (!parse(command, arguments, values)) return 0;
-  if (!has(values, "shape"))
-    throw UsageError("SHAPE is missing; usage: onmesh make-mesh " + command.synopsis);
-  const Shape& shape =
-      find_entry("shape", text_of(values, "shape"), kShapes, [](const Shape& s) { return s.name; });
+  const Shape& shape = find_entry("shape", argument_of(command, values, "shape"), kShapes,
+                                  [](const Shape& s) { return s.name; });
   const std::string output = text_of(values, "output");
 
   SurfaceTextureOptions options;
@@ -208,7 +206,10 @@ int run_make_mesh(const std::vector<std::string>& arguments) {
   check_interrupted();
   if (has(values, "texture")) {
     const std::string texture = text_of(values, "texture");
-    Image image = make_surface_texture(mesh, size, size, options);
+    // The stretched plane wears the square's texture: that is what stretches it.
+    const bool stretched = std::string_view(shape.name) == "stretched-plane";
+    const Image image =
+        make_surface_texture(stretched ? make_plane(1, 1) : mesh, size, size, options);
     check_interrupted();
     ImageWriteOptions eight_bits;
     eight_bits.bits = 8;

@@ -77,6 +77,16 @@ void refuse_together(const po::variables_map& values, const std::string& a, cons
   if (given(a) && given(b)) throw UsageError("--" + a + " and --" + b + " exclude each other");
 }
 
+// The scalar may have a value per vertex of the file or per vertex once they are welded.
+void fit_to_scalar(TriangleMesh& mesh, std::size_t values, const std::string& path) {
+  const std::size_t as_read = mesh.positions.size();
+  if (values == as_read) return;
+  mesh = weld(mesh);
+  if (values != mesh.positions.size())
+    throw InputError("--distance-ply: " + path + " has " + std::to_string(values) +
+                     " vertices, the mesh has " + std::to_string(as_read));
+}
+
 // The textures that the mesh's materials name, each read once.
 class MaterialTextures {
  public:
@@ -86,14 +96,26 @@ class MaterialTextures {
         pointers.push_back(nullptr);
         continue;
       }
-      std::unique_ptr<Image>& image = images_[material.texture];
-      if (image == nullptr) image = std::make_unique<Image>(read_image(material.texture));
-      pointers.push_back(image.get());
+      const auto [entry, is_new] = images_.try_emplace(material.texture);
+      if (is_new) entry->second = read(material.texture);
+      pointers.push_back(entry->second.get());
     }
   }
   std::vector<const Image*> pointers;
 
  private:
+  // A model is worth seeing even if one of its textures got lost: that part stays grey.
+  static std::unique_ptr<Image> read(const std::string& path) {
+    try {
+      return std::make_unique<Image>(read_image(path));
+    } catch (const FileError& error) {
+      warn(error.what());
+    } catch (const InputError& error) {
+      warn(error.what());
+    }
+    return nullptr;
+  }
+
   std::map<std::string, std::unique_ptr<Image>> images_;
 };
 
@@ -103,8 +125,6 @@ int run_view(const std::vector<std::string>& arguments) {
   const Command command = make_command();
   po::variables_map values;
   if (!parse(command, arguments, values)) return 0;
-  if (!has(values, "mesh"))
-    throw UsageError("MESH is missing; usage: onmesh view " + command.synopsis);
   const std::string output = text_of(values, "output");
   const RenderOptions options = render_options(values);
   for (const char* other : {"texture", "after", "face-materials"})
@@ -117,20 +137,23 @@ int run_view(const std::vector<std::string>& arguments) {
   check_writable_image(output, make_image(1, 1, 3));
 
   std::vector<std::string> warnings;
-  const TriangleMesh mesh = read_mesh(text_of(values, "mesh"), &warnings);
+  TriangleMesh mesh = read_mesh(argument_of(command, values, "mesh"), &warnings);
   warn(warnings);
+  check_interrupted();
+  std::vector<double> scalar;
+  if (has(values, "distance-ply")) {
+    const std::string path = text_of(values, "distance-ply");
+    scalar = read_ply_column(path, text_of(values, "property"));
+    fit_to_scalar(mesh, scalar.size(), path);
+  } else {
+    mesh = weld(mesh);  // shading is smooth across seams, so that a seam in sight is the texture's
+  }
   check_interrupted();
 
   std::vector<Image> pictures;
   RenderColour colour;
   colour.by_material = flag_of(values, "face-materials");
   if (has(values, "distance-ply")) {
-    const std::string property = text_of(values, "property");
-    const std::vector<double> scalar = read_ply_column(text_of(values, "distance-ply"), property);
-    if (scalar.size() != mesh.positions.size())
-      throw InputError("--distance-ply: " + text_of(values, "distance-ply") + " has " +
-                       std::to_string(scalar.size()) + " vertices, the mesh has " +
-                       std::to_string(mesh.positions.size()));
     colour.scalar = &scalar;
     if (has(values, "isolines")) colour.isoline_step = number_of(values, "isolines", 0, 1e300);
     if (has(values, "isolines") && colour.isoline_step == 0) colour.isoline_step = -1;

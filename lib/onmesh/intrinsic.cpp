@@ -475,10 +475,12 @@ NodeMesh IntrinsicTriangulation::node_mesh() const {
   const Index faces = edges_.face_count();
   out.faces.resize(faces);
   out.lengths.resize(faces);
+  out.neighbours.resize(faces);
   for (Index f = 0; f < faces; ++f) {
     for (Index k = 0; k < 3; ++k) {
       out.faces[f][k] = edges_.tail[3 * f + k];
       out.lengths[f][k] = edges_.length[3 * f + k];
+      out.neighbours[f][k] = edges_.twin[3 * f + k];
     }
   }
   out.build_incidence();

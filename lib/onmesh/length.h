@@ -12,7 +12,8 @@ struct Length {
   Unit unit = Unit::mesh;
 };
 
-/// \throw UsageError naming `flag` unless the text is a positive finite number with an optional unit
+/// \throw UsageError naming `flag` unless the text is a positive finite number with an optional
+/// unit
 Length parse_length(std::string_view flag, std::string_view text);
 std::string to_string(const Length& length);
 

@@ -82,10 +82,12 @@ void check_size(int width, int height, int channels, double noise) {
   if (!(noise >= 0 && noise <= 1)) throw UsageError("texture: noise must be between 0 and 1");
 }
 
-void add_noise(Image& image, double noise, std::uint64_t seed) {
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    const double delta = noise * (2 * hash_unit(seed, i, 0x6e6f697365ULL) - 1);
-    image.pixels[i] = float(std::clamp(image.pixels[i] + delta, 0.0, 1.0));
+void add_noise(Image& image, Index texel, double noise, std::uint64_t seed) {
+  for (int c = 0; c < image.channels; ++c) {
+    float& value = image.texel(texel)[c];
+    const double delta =
+        noise * (2 * hash_unit(seed, texel, std::uint64_t(c), 0x6e6f697365ULL) - 1);
+    value = float(std::clamp(value + delta, 0.0, 1.0));
   }
 }
 
@@ -174,9 +176,9 @@ Image make_texture(int width, int height, Pattern pattern, double noise, std::ui
       const Vec3 colour = pattern_colour(pattern, p / cell, extent, seed);
       float* texel = image.texel(Index(y) * Index(width) + Index(x));
       for (int c = 0; c < channels; ++c) texel[c] = float(colour[c % 3]);
+      add_noise(image, Index(y) * Index(width) + Index(x), noise, seed);
     }
   }
-  add_noise(image, noise, seed);
   return image;
 }
 
@@ -205,8 +207,8 @@ Image make_surface_texture(const TriangleMesh& mesh, int width, int height,
           pattern_colour(options.pattern, p / cell + Vec3::Constant(0.5), extent, options.seed);
     }
     for (int c = 0; c < 3; ++c) image.texel(Index(i))[c] = float(colour[c]);
+    if (nearest.reached(i)) add_noise(image, Index(i), options.noise, options.seed);
   }
-  add_noise(image, options.noise, options.seed);
   return image;
 }
 

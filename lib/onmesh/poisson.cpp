@@ -13,7 +13,9 @@
 #include <utility>
 
 #include "onmesh/error.h"
+#include "onmesh/face_frame.h"
 #include "onmesh/point_grid.h"
+#include "onmesh/projection.h"
 #include "onmesh/surface_ball.h"
 #include "onmesh/texel_map.h"
 
@@ -24,13 +26,13 @@ namespace {
 constexpr double kDensity = 0.6965;  // samples per spacing^2 in a maximal random set on a plane
 constexpr double kMaxSamples = 1 << 28;
 constexpr int kBatchesPerSample = 4;  // candidates come in batches of a quarter of the samples ...
-constexpr int kBatches = 24;          // ... fewer make the set less random, more find no room
+constexpr int kBatches = 32;          // ... fewer leave more to the filling, which is less random
 
-// Lengths in spacings. Cells larger than the base radius are split at once, those up to the dart
-// radius get darts, and at the finest radius a cell that still takes none counts as covered.
+// Lengths in spacings. Larger cells than the base are split at once; a cell of the finest size that
+// takes no dart counts as covered, which leaves gaps up to the tolerance.
 constexpr double kBaseRadius = 0.8;
-constexpr double kDartRadius = 0.3;
-constexpr double kFinestRadius = 1e-3;
+constexpr double kFinestRadius = 0.5e-3;
+constexpr double kTolerance = 1e-3;
 constexpr double kGridCell = 3.2;
 
 constexpr double kQuantile = 0.02;  // share of texels that may be smaller than the disc
@@ -52,40 +54,6 @@ class Random {
   std::uint64_t state_;
 };
 
-// Part of a face.
-struct Cell {
-  Index face;
-  std::array<Vec3, 3> barycentric, corners;
-
-  Vec3 centre() const { return (corners[0] + corners[1] + corners[2]) / 3; }
-  double area() const {
-    return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
-  }
-  double squared_radius(const Vec3& centre) const {
-    return std::max({(corners[0] - centre).squaredNorm(), (corners[1] - centre).squaredNorm(),
-                     (corners[2] - centre).squaredNorm()});
-  }
-  // Halves at the longest edge: cells of slivers become well shaped, and few.
-  std::array<Cell, 2> split() const {
-    std::size_t longest = 0;
-    double length = -1;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double l = (corners[(k + 1) % 3] - corners[k]).squaredNorm();
-      if (l > length) {
-        length = l;
-        longest = k;
-      }
-    }
-    const std::size_t other = (longest + 1) % 3;
-    std::array<Cell, 2> halves{*this, *this};
-    halves[0].barycentric[other] = halves[1].barycentric[longest] =
-        0.5 * (barycentric[longest] + barycentric[other]);
-    halves[0].corners[other] = halves[1].corners[longest] =
-        0.5 * (corners[longest] + corners[other]);
-    return halves;
-  }
-};
-
 class Sampler {
  public:
   Sampler(const TriangleMesh& mesh, const PoissonOptions& options, const Progress& progress);
@@ -95,7 +63,8 @@ class Sampler {
   // A sample near a cell. Joined: every point of the cell that is within the spacing of the sample
   // conflicts with it; otherwise that depends on the point.
   struct Near {
-    Vec3 position;
+    Vec2 foot;              // in the face's frame
+    double squared_height;  // above it
     Index sample;
     bool joined;
   };
@@ -105,11 +74,11 @@ class Sampler {
   };
 
   void throw_candidates();
-  void fill(const Cell& cell);
-  void fill(const Cell& cell, const NearRange& parent);
-  bool settle_unjoined(const Cell& cell, const Vec3& centre, double radius, std::size_t first);
+  void fill(const FaceFrame& frame, const Cell& cell);
+  void fill(const FaceFrame& frame, const Cell& cell, const NearRange& parent);
+  bool settle_unjoined(const FaceFrame& frame, const Cell& cell, std::size_t first);
+  bool throw_dart(const FaceFrame& frame, const Cell& cell, bool finest, std::size_t first);
   bool throw_dart(const SurfacePoint& dart);
-  bool throw_dart(const SurfacePoint& dart, std::size_t first);
   void add(const SurfacePoint& sample, const Vec3& position);
 
   bool close(const Vec3& p, const Vec3& q) const {
@@ -122,10 +91,19 @@ class Sampler {
     const auto last = reach_.begin() + std::ptrdiff_t(reach_offsets_[sample + 1]);
     return std::binary_search(first, last, face);
   }
-  // A ball is convex, so it holds the cell when it holds the corners.
+  Near make_near(const FaceFrame& frame, Index sample, bool joined) const {
+    const Vec3 d = positions_[sample] - frame.origin;
+    const Vec2 foot(d.dot(frame.x_axis), d.dot(frame.y_axis));
+    const double height = (d - foot.x() * frame.x_axis - foot.y() * frame.y_axis).squaredNorm();
+    return {foot, height, sample, joined};
+  }
+  bool meets(const Near& near, const Cell& cell) const {
+    const Vec2 d = (cell.low - near.foot).cwiseMax(near.foot - cell.high).cwiseMax(0.0);
+    return d.squaredNorm() + near.squared_height < squared_spacing_;
+  }
   bool covers(const Near& near, const Cell& cell) const {
-    return near.joined && close(near.position, cell.corners[0]) &&
-           close(near.position, cell.corners[1]) && close(near.position, cell.corners[2]);
+    const Vec2 d = (near.foot - cell.low).cwiseMax(cell.high - near.foot);
+    return near.joined && d.squaredNorm() + near.squared_height < squared_spacing_;
   }
   Vec3 position(const SurfacePoint& p) const {
     const auto t = mesh_.corners(p.face);
@@ -171,7 +149,7 @@ Sampler::Sampler(const TriangleMesh& mesh, const PoissonOptions& options, const 
   for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
     if (!options.faces.empty() && !options.faces[f]) continue;
     const auto t = mesh.corners(f);
-    const double face_area = Cell{f, {}, t}.area();
+    const double face_area = 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
     if (!(face_area > 0)) continue;
     area += face_area;
     faces_.push_back(f);
@@ -195,8 +173,10 @@ Sampler::Sampler(const TriangleMesh& mesh, const PoissonOptions& options, const 
 
 std::vector<SurfacePoint> Sampler::run() {
   throw_candidates();
-  for (const Index f : faces_)
-    fill({f, {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, mesh_.corners(f)});
+  for (const Index f : faces_) {
+    const FaceFrame frame(f, mesh_.corners(f));
+    if (frame.size.y() > 0) fill(frame, {Vec2::Zero(), frame.size});
+  }
   report(1);
   return std::move(samples_);
 }
@@ -235,56 +215,46 @@ void Sampler::throw_candidates() {
 }
 
 // Makes the set maximal on the cell: gathers the samples near it once it is small enough.
-void Sampler::fill(const Cell& cell) {
-  const Vec3 centre = cell.centre();
-  const double radius = std::sqrt(cell.squared_radius(centre));
+void Sampler::fill(const FaceFrame& frame, const Cell& cell) {
+  if (!cell.meets(frame)) return;
+  const double radius = cell.radius();
   if (radius > kBaseRadius * spacing_) {
-    for (const Cell& half : cell.split()) fill(half);
+    for (const Cell& half : cell.split()) fill(frame, half);
     return;
   }
-  filled_ += cell.area();
+  filled_ += 0.5 * cell.area();
   if (++gathers_ % 65536 == 0) report(0.5 + 0.5 * std::min(filled_ / area_below_.back(), 1.0));
   near_.clear();
   fresh_.clear();
-  const double limit = (spacing_ + radius) * (spacing_ + radius);
-  const bool covered = grid_.visit(centre, spacing_ + radius, [&](Index i) {
-    if ((positions_[i] - centre).squaredNorm() >= limit) return false;
-    near_.push_back({positions_[i], i, reaches(i, cell.face)});
-    return covers(near_.back(), cell);
+  const bool covered = grid_.visit(frame.position(cell.centre()), spacing_ + radius, [&](Index i) {
+    Near near = make_near(frame, i, false);
+    if (!meets(near, cell)) return false;
+    near.joined = reaches(i, frame.face);
+    near_.push_back(near);
+    return covers(near, cell);
   });
-  if (!covered) fill(cell, {0, near_.size(), 0});
+  if (!covered) fill(frame, cell, {0, near_.size(), 0});
 }
 
 // The cell is done when a sample covers it, else gets a dart and is split (cf. Gamito & Maddock
 // 2009, Ebeida et al. 2012).
-void Sampler::fill(const Cell& cell, const NearRange& parent) {
-  const Vec3 centre = cell.centre();
-  const double radius = std::sqrt(cell.squared_radius(centre));
-  const double limit = (spacing_ + radius) * (spacing_ + radius);
+void Sampler::fill(const FaceFrame& frame, const Cell& cell, const NearRange& parent) {
   const std::size_t first = near_.size();
   bool covered = false, unjoined = false;
-  const auto consider = [&](const Near& n) {
-    if ((n.position - centre).squaredNorm() >= limit) return;
-    covered = covers(n, cell);
-    unjoined |= !n.joined;
-    near_.push_back(n);
+  const auto consider = [&](const Near& near) {
+    if (!meets(near, cell)) return;
+    covered = covers(near, cell);
+    unjoined |= !near.joined;
+    near_.push_back(near);
   };
   for (std::size_t i = parent.first; i < parent.last && !covered; ++i) consider(Near(near_[i]));
   for (std::size_t i = parent.fresh; i < fresh_.size() && !covered; ++i) consider(fresh_[i]);
-  if (!covered && unjoined) covered = settle_unjoined(cell, centre, radius, first);
+  covered = covered || !cell.meets(frame);
+  if (!covered && unjoined) covered = settle_unjoined(frame, cell, first);
 
-  if (!covered && radius <= kDartRadius * spacing_) {
-    const bool finest = radius <= kFinestRadius * spacing_;
-    SurfacePoint dart{cell.face, Vec3::Constant(1.0 / 3)};
-    if (!finest) {
-      double u = random_.uniform(), v = random_.uniform();
-      if (u + v > 1) u = 1 - u, v = 1 - v;
-      dart.barycentric = {1 - u - v, u, v};
-    }
-    const Vec3 weights = dart.barycentric;
-    dart.barycentric = weights[0] * cell.barycentric[0] + weights[1] * cell.barycentric[1] +
-                       weights[2] * cell.barycentric[2];
-    if (throw_dart(dart, first)) {
+  if (!covered) {
+    const bool finest = cell.radius() <= kFinestRadius * spacing_;
+    if (throw_dart(frame, cell, finest, first)) {
       near_.push_back(fresh_.back());
       covered = covers(fresh_.back(), cell);
     }
@@ -292,7 +262,7 @@ void Sampler::fill(const Cell& cell, const NearRange& parent) {
   }
   if (!covered) {
     const NearRange range{first, near_.size(), fresh_.size()};
-    for (const Cell& half : cell.split()) fill(half, range);
+    for (const Cell& half : cell.split()) fill(frame, half, range);
   }
   near_.resize(first);
 }
@@ -300,22 +270,48 @@ void Sampler::fill(const Cell& cell, const NearRange& parent) {
 // Looks from the cell at the samples whose balls do not reach its face: those that no point's ball
 // reaches are dropped from near_, those that every point's ball reaches are joined.
 // Returns whether one of them covers the cell.
-bool Sampler::settle_unjoined(const Cell& cell, const Vec3& centre, double radius,
-                              std::size_t first) {
+bool Sampler::settle_unjoined(const FaceFrame& frame, const Cell& cell, std::size_t first) {
   // Each point's ball lies in the outer ball and holds the inner one.
-  ball_.find(cell.face, centre, spacing_ + radius);
-  const auto lost = [&](const Near& n) {
-    return !n.joined && !ball_.found(samples_[n.sample].face);
+  const Vec3 centre = frame.position(cell.centre());
+  const double radius = cell.radius();
+  ball_.find(frame.face, centre, spacing_ + radius);
+  const auto lost = [&](const Near& near) {
+    return !near.joined && !ball_.found(samples_[near.sample].face);
   };
   near_.erase(std::remove_if(near_.begin() + std::ptrdiff_t(first), near_.end(), lost),
               near_.end());
-  ball_.find(cell.face, centre, spacing_ - radius);
+  ball_.find(frame.face, centre, spacing_ - radius);
   for (std::size_t i = first; i < near_.size(); ++i) {
     if (near_[i].joined || !ball_.found(samples_[near_[i].sample].face)) continue;
     near_[i].joined = true;
     if (covers(near_[i], cell)) return true;
   }
   return false;
+}
+
+// Throws a dart into the cell, near which the samples near_[first, ...) are: anywhere in it, or if
+// it is of the finest size, at the point inside the face that is closest to its centre.
+bool Sampler::throw_dart(const FaceFrame& frame, const Cell& cell, bool finest, std::size_t first) {
+  SurfacePoint dart{frame.face, Vec3::Zero()};
+  if (finest) {
+    const auto corners = mesh_.corners(frame.face);
+    dart.barycentric = closest_barycentric(corners, frame.position(cell.centre()));
+  } else {
+    const double u = random_.uniform(), v = random_.uniform();
+    const Vec2 place = cell.low + Vec2(u, v).cwiseProduct(cell.high - cell.low);
+    dart.barycentric = frame.barycentric(place);
+    if (dart.barycentric.minCoeff() < 0) return false;
+  }
+  const Vec3 p = position(dart);
+  for (std::size_t i = first; i < near_.size(); ++i)
+    if (near_[i].joined && close(positions_[near_[i].sample], p)) return false;
+  ball_.find(dart.face, p, spacing_);
+  for (std::size_t i = first; i < near_.size(); ++i)
+    if (close(positions_[near_[i].sample], p) && ball_.found(samples_[near_[i].sample].face))
+      return false;
+  add(dart, p);
+  fresh_.push_back(make_near(frame, Index(samples_.size() - 1), true));  // on the cell's own face
+  return true;
 }
 
 // Adds the dart unless it conflicts with a sample.
@@ -334,19 +330,6 @@ bool Sampler::throw_dart(const SurfacePoint& dart) {
         return close(positions_[i], p) && ball_.found(samples_[i].face);
       }))
     return false;
-  add(dart, p);
-  return true;
-}
-
-// The same for a dart in a cell whose near samples are near_[first, ...).
-bool Sampler::throw_dart(const SurfacePoint& dart, std::size_t first) {
-  const Vec3 p = position(dart);
-  for (std::size_t i = first; i < near_.size(); ++i)
-    if (near_[i].joined && close(near_[i].position, p)) return false;
-  ball_.find(dart.face, p, spacing_);
-  for (std::size_t i = first; i < near_.size(); ++i)
-    if (close(near_[i].position, p) && ball_.found(samples_[near_[i].sample].face)) return false;
-  fresh_.push_back({p, Index(samples_.size()), true});  // it lies on the cell's face
   add(dart, p);
   return true;
 }
@@ -397,7 +380,7 @@ double default_poisson_spacing(const TriangleMesh& mesh, const TexelMap& map) {
   for (double smaller = discs[0].second; smaller <= kQuantile * texels; smaller += discs[i].second)
     ++i;
   // A sample is found up to the filling's tolerance beyond the spacing.
-  const double radius = discs[i].first / (1 + kFinestRadius);
+  const double radius = discs[i].first / (1 + kTolerance);
   return std::max(radius, std::sqrt(kDensity * area / (kMaxPerTexel * texels)));
 }
 

@@ -95,16 +95,16 @@ class PlyReader {
       : source_(std::move(source)), header_(header), file_(std::move(file)), warnings_(warnings) {}
 
   PolygonMesh run() {
-    bool has_vertices = false, has_faces = false;
+    bool has_faces = false;
     for (const PlyElement& element : header_.elements) {
       std::size_t bytes = 0;
       for (const PlyProperty& p : element.properties) bytes += size_of(p.count.value_or(p.type));
       if (!source_.can_hold(element.count, element.properties.size(), bytes)) {
-        source_.fail("header promises " + std::to_string(element.count) + " times " +
-                     quote(element.name) + ", the file is too short for them");
+        refuse("header promises " + std::to_string(element.count) + " times " +
+               quote(element.name) + ", the file is too short for them");
       }
-      if (element.name == "vertex" && !has_vertices) {
-        has_vertices = true;
+      if (element.name == "vertex" && !vertices_known_) {
+        vertices_known_ = true;
         read_vertices(element);
       } else if (element.name == "face" && !has_faces) {
         has_faces = true;
@@ -115,13 +115,16 @@ class PlyReader {
         }
       }
     }
-    if (!has_vertices) source_.fail("has no vertices");
-    if (!has_faces) source_.fail("has no faces (point clouds and triangle strips are not read)");
+    if (!vertices_known_) refuse("has no vertices");
+    if (!has_faces) refuse("has no faces (point clouds and triangle strips are not read)");
     finish();
     return std::move(out_);
   }
 
  private:
+  /// For what no single value of the body is to blame for.
+  [[noreturn]] void refuse(const std::string& what) const { throw InputError(file_ + ": " + what); }
+
   void skip(const PlyProperty& p) {
     const std::size_t n = p.count ? list_length(p) : 1;
     for (std::size_t i = 0; i < n; ++i) source_.value(p.type);
@@ -150,7 +153,7 @@ class PlyReader {
     const std::size_t none = element.properties.size();
     std::array<std::size_t, 5> wanted = {find("x"), find("y"), find("z"), none, none};
     for (int i = 0; i < 3; ++i) {
-      if (wanted[i] == none) source_.fail(std::string("vertices have no ") + "xyz"[i]);
+      if (wanted[i] == none) refuse(std::string("vertices have no ") + "xyz"[i]);
     }
     constexpr std::array<std::array<std::string_view, 2>, 3> uv_names = {
         {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}}};
@@ -166,7 +169,7 @@ class PlyReader {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       if (wanted[i] != none) slot[wanted[i]] = i;
     }
-    if (element.count >= kNone) source_.fail("has more vertices than 32 bits can count");
+    if (element.count >= kNone) refuse("has more vertices than 32 bits can count");
     out_.mesh.positions.reserve(element.count);
     if (vertex_uvs_) out_.mesh.uvs.reserve(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -195,7 +198,7 @@ class PlyReader {
   void read_faces(const PlyElement& element) {
     const bool has_corners = std::any_of(element.properties.begin(), element.properties.end(),
                                          [](const PlyProperty& p) { return is_corners(p); });
-    if (!has_corners) source_.fail("faces have no list vertex_indices");
+    if (!has_corners) refuse("faces have no list vertex_indices");
     out_.polygon_end.reserve(element.count);
     std::vector<double> corners, uvs;
     for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -229,12 +232,9 @@ class PlyReader {
         if (!(v >= 0 && v < kNone) || v != std::floor(v))
           fail("vertex index is negative or no index");
         const auto vertex = static_cast<Index>(v);
-        Index uv = vertex_uvs_ ? vertex : kNone;
-        if (!uvs.empty()) {
-          uv = kPerCorner;
-          corner_uvs_.emplace_back(uvs[2 * k], uvs[2 * k + 1]);
-        }
-        out_.add_corner(vertex, uv);
+        if (vertices_known_ && vertex >= out_.mesh.positions.size()) fail(out_of_range(vertex));
+        out_.add_corner(vertex, uvs.empty() ? kNone : kPerCorner);
+        if (!uvs.empty()) corner_uvs_.emplace_back(uvs[2 * k], uvs[2 * k + 1]);
       }
       out_.end_polygon(material);
     }
@@ -250,25 +250,27 @@ class PlyReader {
     for (double& v : values) v = source_.value(p.type);
   }
 
+  std::string out_of_range(Index vertex) const {
+    return "vertex index " + std::to_string(vertex) + " is out of range (" +
+           std::to_string(out_.mesh.positions.size()) + " vertices)";
+  }
+
   /// Check what can only be checked once vertices and faces are known, in whatever order they came.
   void finish() {
-    std::size_t polygon = 0;
-    for (std::size_t i = 0; i < out_.corners.size(); ++i) {
-      if (i == out_.polygon_end[polygon]) ++polygon;
-      if (out_.corners[i] >= out_.mesh.positions.size()) {
-        source_.fail("face " + std::to_string(polygon) + ": vertex index " +
-                     std::to_string(out_.corners[i]) + " is out of range (" +
-                     std::to_string(out_.mesh.positions.size()) + " vertices)");
-      }
+    for (const Index corner : out_.corners) {
+      if (corner >= out_.mesh.positions.size()) refuse(out_of_range(corner));
     }
     if (out_.mesh.uvs.size() + corner_uvs_.size() >= kPerCorner) {
-      source_.fail("has more texture coordinates than 32 bits can count");
+      refuse("has more texture coordinates than 32 bits can count");
     }
     std::size_t next = 0;
-    for (Index& uv : out_.corner_uvs) {
+    for (std::size_t i = 0; i < out_.corners.size(); ++i) {
+      Index& uv = out_.corner_uvs[i];
       if (uv == kPerCorner) {
         uv = static_cast<Index>(out_.mesh.uvs.size());
         add_uv(corner_uvs_[next++]);
+      } else if (vertex_uvs_) {
+        uv = out_.corners[i];
       }
       if (uv != kNone && !out_.mesh.uvs[uv].allFinite()) uv = kNone;
     }
@@ -289,6 +291,7 @@ class PlyReader {
   std::vector<std::string>* warnings_;
   PolygonMesh out_;
   std::vector<Vec2> corner_uvs_;
+  bool vertices_known_ = false;
   bool vertex_uvs_ = false;
   std::size_t missing_uvs_ = 0;
 };

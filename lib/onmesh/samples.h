@@ -12,7 +12,7 @@ namespace onmesh {
 struct Sample {
   Index texel = 0;  ///< whose colour it carries
   float b1 = 0, b2 = 0;
-  float area = 0;   ///< surface area it stands for
+  float area = 0;  ///< surface area it stands for
 };
 
 /// Samples of all node faces; those of face f are [face_offsets[f], face_offsets[f + 1]).
@@ -21,8 +21,8 @@ struct Samples {
   std::vector<Sample> samples;
 };
 
-/// Texel quadrature: every claim of the map is one sample, within a face in the order of input faces
-/// and texels.
+/// Texel quadrature: every claim of the map is one sample, within a face in the order of input
+/// faces and texels.
 Samples texel_samples(const TexelMap& map, const NodeSurface& surface);
 
 /// Equal-area samples at surface points, with the colour of the texel whose square holds their UV.

@@ -1,9 +1,6 @@
 // The pieces that make_texel_map is put together from (internal).
 #pragma once
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -14,14 +11,6 @@
 #include "onmesh/uv_raster.h"
 
 namespace onmesh {
-
-template <class Body>
-void parallel_over(std::size_t size, Body&& body) {
-  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, size, 16),
-                            [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
-                              for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
-                            });
-}
 
 /// More texels than this are not claimed: offsets have 32 bits.
 inline constexpr double kMostClaims = 2147483648.0;

@@ -2,15 +2,28 @@
 // (internal: the texel map and the gutter are made with it).
 #pragma once
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "onmesh/triangle_mesh.h"
 
 namespace onmesh {
+
+/// body(i) for every i below size, in any order and on all threads.
+template <class Body>
+void parallel_over(std::size_t size, Body&& body) {
+  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, size, 16),
+                            [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
+                              for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
+                            });
+}
 
 /// A UV triangle in pixels: x = u W to the right, y = (1 - v) H down, texel centres at +.5.
 struct PixelTriangle {

@@ -1,0 +1,69 @@
+// Walking straight over a mesh, faces unfolded into one plane on the way (internal: the gutter
+// finds what lies beyond a seam with it).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "onmesh/texel_map.h"
+#include "onmesh/triangle_mesh.h"
+
+namespace onmesh {
+
+/// A face laid out in a plane together with those it was reached from.
+struct LaidFace {
+  Index face = kNone;
+  std::array<Vec2, 3> corners;
+  double winding = 1;  ///< 1 if the corners run anticlockwise, -1 if clockwise
+
+  Vec2 point(const Vec3& barycentric) const {
+    return barycentric[0] * corners[0] + barycentric[1] * corners[1] + barycentric[2] * corners[2];
+  }
+};
+
+/// Barycentric coordinates in a triangle of the plane; not finite if it has no area.
+Vec3 barycentric_in(const std::array<Vec2, 3>& triangle, const Vec2& p);
+
+class SurfaceWalk {
+ public:
+  SurfaceWalk(const TriangleMesh& mesh, const TexelMap& map);
+
+  /// The face on its own, corner 0 at the origin.
+  LaidFace lay_out(Index face) const;
+
+  /// Go straight from a point in or on the face to `to`, both in its plane, over any edge that just
+  /// two faces share. \return the face that holds `to`, nothing if the way is barred
+  std::optional<LaidFace> over_surface(const LaidFace& start, const Vec2& from,
+                                       const Vec2& to) const;
+
+  /// The same with points in pixels, steering by the UVs and without leaving the chart.
+  std::optional<LaidFace> within_chart(const LaidFace& start, const Vec2& from,
+                                       const Vec2& to) const;
+
+  /// Corners of a face in pixels.
+  std::array<Vec2, 3> pixel_corners(Index face) const;
+
+  /// Face 3 f + k across edge k of face f, as 3 g + l; kNone at borders and where more than two
+  /// faces meet.
+  Index across(Index face, int k) const { return across_[std::size_t(3) * face + std::size_t(k)]; }
+  /// Whether the face across edge k has the same UVs there.
+  bool uvs_agree(Index face, int k) const;
+
+ private:
+  template <bool by_uv>
+  std::optional<LaidFace> walk(const LaidFace& start, const Vec2& from, const Vec2& to) const;
+  template <bool by_uv>
+  std::optional<LaidFace> walk_out(const LaidFace& start, int edge, const Vec2& from,
+                                   const Vec2& to) const;
+  template <bool by_uv>
+  std::array<Vec2, 3> steering_corners(const LaidFace& laid) const;
+  template <bool by_uv>
+  std::optional<LaidFace> cross(const LaidFace& laid, int k) const;
+
+  const TriangleMesh& mesh_;
+  const TexelMap& map_;
+  std::vector<Index> across_;
+};
+
+}  // namespace onmesh
