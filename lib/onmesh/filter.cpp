@@ -290,13 +290,7 @@ Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& o
   stages.end();
 
   stages.begin("gutter");
-  const std::vector<Index> filled = fill_gutter(setup.mesh, setup.map, options.gutter, image);
-  if (texture.alpha_channel >= 0) {
-    for (const Index t : filled) {
-      image.texel(t)[texture.alpha_channel] = texture.texel(t)[texture.alpha_channel];
-    }
-  }
-  report.gutter = filled.size();
+  report.gutter = fill_gutter(setup.mesh, setup.map, options.gutter, image).size();
   stages.end();
   return image;
 }
