@@ -126,9 +126,10 @@ TEST_CASE("the result stays within the texture's range", "[filter]") {
 
 TEST_CASE("any number of threads gives the same bytes", "[filter]") {
   const TriangleMesh mesh = make_torus(24, 12);
-  const Image texture = noise_image(160, 120);
+  const Image texture = noise_image(240, 160);
   FilterOptions options = options_for(FilterKind::bilateral, 3);
   options.samples = GENERATE(SampleKind::texel, SampleKind::poisson);
+  if (options.samples == SampleKind::poisson) options.spacing = Length{1.5, Length::Unit::texel};
   options.threads = 1;
   FilterReport report;
   const Image one = filter(mesh, texture, options, &report);
@@ -427,6 +428,7 @@ TEST_CASE("the plan tells what the filter then does", "[filter]") {
   const Image texture = noise_image(256, 128);
   FilterOptions options = options_for(FilterKind::bilateral, 6);
   options.samples = GENERATE(SampleKind::texel, SampleKind::poisson);
+  if (options.samples == SampleKind::poisson) options.spacing = Length{1.5, Length::Unit::texel};
   const FilterPlan plan = plan_filter(mesh, texture, options);
   FilterReport report;
   filter(mesh, texture, options, &report);
