@@ -53,6 +53,7 @@ void drop_stale_attributes(OIIO::ImageSpec& spec, const Image::Source& source,
         "tiff:PhotometricInterpretation", "tiff:Compression", "thumbnail_image"})
     spec.erase_attribute(name);
   if (source.format != format.name) spec.erase_attribute("compression");
+  if (format.name == "openexr") spec.erase_attribute("ICCProfile");  // else OpenImageIO prints
 }
 
 bool has_float(const std::vector<SampleType>& types) {

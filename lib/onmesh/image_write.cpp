@@ -224,15 +224,19 @@ void warn_of_losses(const fs::path& path, const ImageFormat& format, const Image
   if (not_numbers > 0)
     warnings.push_back(path.string() + ": " + std::to_string(not_numbers) +
                        " values that are not numbers are written as 0");
-  if (image.alpha_channel >= 0 && image.source) {
-    const bool was_apart = image.source->spec.get_int_attribute("oiio:UnassociatedAlpha") != 0;
-    const bool exr = format.name == "openexr";
-    const bool tiff = format.name == "tiff";
-    if (exr && was_apart)
+  if (!image.source) return;
+  const Image::Source& source = *image.source;
+  const bool exr = format.name == "openexr", tiff = format.name == "tiff";
+  if (image.alpha_channel >= 0) {
+    const bool apart = source.spec.get_int_attribute("oiio:UnassociatedAlpha") != 0;
+    const bool multiplied = !apart && (source.format == "openexr" || source.format == "tiff");
+    if (exr && apart)
       warnings.push_back(path.string() + ": colours are not multiplied with alpha as EXR wants it");
-    if (!exr && !tiff && !was_apart)
+    if (!exr && !tiff && multiplied)
       warnings.push_back(path.string() + ": colours stay multiplied with alpha as in the source");
   }
+  if (exr && source.spec.find_attribute("ICCProfile") != nullptr)
+    warnings.push_back(path.string() + ": EXR cannot hold the source's ICC profile");
 }
 
 }  // namespace
