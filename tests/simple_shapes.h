@@ -126,8 +126,8 @@ inline TriangleMesh torus(int nu, int nv, double major = 1, double minor = 0.4) 
   return mesh;
 }
 
-/// Slant length 1, apex first, then `rings` rings of n vertices: the facets unroll to a sector whose
-/// angle is 2 n asin(chord / 2), exactly `degrees` in all. Distances have a closed form.
+/// Slant length 1, apex first, then `rings` rings of n vertices: the facets unroll to a sector
+/// whose angle is 2 n asin(chord / 2), exactly `degrees` in all. Distances have a closed form.
 inline TriangleMesh cone(double degrees, int n, int rings) {
   TriangleMesh mesh;
   const double step = degrees * kPi / 180 / n;  // apex angle of one facet

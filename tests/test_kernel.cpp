@@ -101,6 +101,27 @@ TEST_CASE("faces with a few samples and vectors over many faces filter alike", "
   CHECK(psnr(out, reference.values) > 110);
 }
 
+TEST_CASE("a core much wider than the radius filters right in any unit of length", "[kernel]") {
+  // Targets that share a vector may be out of each other's reach here.
+  const double unit = GENERATE(1.0, 1.0 / 80, 300.0);
+  FlatPatch flat = make_flat_patch(80, 60, 1, 3, 0.8, reach_for(3, 3), 3, 37);
+  flat.patch.longest_edge *= unit;
+  for (auto& lengths : flat.patch.lengths) {
+    for (double& length : lengths) length *= unit;
+  }
+  for (float& squared : flat.table.squared) {
+    if (squared != kUnreachable) squared *= static_cast<float>(unit * unit);
+  }
+  for (Sample& s : flat.samples.samples) s.area *= static_cast<float>(unit * unit);
+  for (Vec2& p : flat.positions) p *= unit;
+  const KernelOptions options{unit, 3 * unit, GENERATE(0.0, 0.2)};
+  std::vector<float> out;
+  const KernelCounts counts = filter_patch(flat.input(), options, out);
+  const Reference reference = brute_force(flat, options, 3);
+  CHECK(counts.pairs == reference.pairs);
+  CHECK(psnr(out, reference.values) > 110);
+}
+
 TEST_CASE("only range channels take part in the colour difference", "[kernel]") {
   const FlatPatch flat = make_flat_patch(48, 40, 1, 6, 0.25, reach_for(10, 6), 4, 7);
   const KernelOptions options{4, 10, 0.2};

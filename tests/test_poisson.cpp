@@ -451,6 +451,29 @@ TEST_CASE("duplicate faces share their samples", "[poisson]") {
   CHECK(double(samples.size()) < 2 * alone);
 }
 
+TEST_CASE("the least distance leaves out pairs that the surface does not join", "[poisson]") {
+  const double spacing = 0.1;
+  const TriangleMesh folded = u_sheet(0.6, 0.5, 0.02, 6, 6);
+  auto samples = sample(folded, spacing);
+  const double least = least_sample_distance(folded, samples, spacing);
+  CHECK(least >= spacing * (1 - 1e-12));
+  CHECK(least < 1.1 * spacing);
+  CHECK(min_distance(folded, samples) < spacing);
+  const SurfacePoint extra{samples[0].face, {0.3, 0.3, 0.4}};  // too close to someone
+  double nearest = 1e300;
+  for (const auto& s : samples)
+    if (conflict(folded, s, extra, spacing))
+      nearest = std::min(nearest, (position(folded, s) - position(folded, extra)).norm());
+  samples.push_back(extra);
+  CHECK(least_sample_distance(folded, samples, spacing) == Approx(nearest).epsilon(1e-12));
+  for (const TriangleMesh& mesh : {sphere(3), cube()}) {
+    const auto whole = sample(mesh, 0.2);
+    CHECK(least_sample_distance(mesh, whole, 0.2) ==
+          Approx(min_distance(mesh, whole)).epsilon(1e-12));
+  }
+  CHECK(std::isinf(least_sample_distance(folded, {extra}, spacing)));
+}
+
 TEST_CASE("bad spacings and endless sample sets are refused at once", "[poisson]") {
   const TriangleMesh mesh = cube();
   for (const double spacing : {0.0, -1.0, std::nan(""), 1.0 / 0.0, 1e-200, 1e200})

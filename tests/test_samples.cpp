@@ -59,7 +59,8 @@ TEST_CASE("samples of a texel map stand for the surface's area", "[samples]") {
   const Samples samples = texel_samples(make_texel_map(mesh, 512, 512), refine_to(mesh, 0.2));
   double sum = 0;
   for (const Sample& s : samples.samples) sum += static_cast<double>(s.area);
-  CHECK(sum == Approx(area).epsilon(2e-3));
+  // A chart of about 480 texels a side is sampled to half a texel along its border.
+  CHECK(sum == Approx(area).epsilon(4 * 0.5 / 480));
 }
 
 TEST_CASE("surface points carry the texel whose square holds them", "[samples]") {

@@ -47,9 +47,9 @@ class Submesh {
   double distance(const SurfacePoint& point) {
     if (face_of_[point.face] == Surface::null_face()) return kInfinity;
     const Place place = locate(point);
-    const auto result =
-        place.vertex ? paths_->shortest_distance_to_source_points(*place.vertex)
-                     : paths_->shortest_distance_to_source_points(place.face, place.barycentric);
+    const auto result = place.vertex ? paths_->shortest_distance_to_source_points(*place.vertex)
+                                     : paths_->shortest_distance_to_source_points(
+                                           place.face, inside(place.barycentric));
     return result.first < 0 ? kInfinity : result.first;
   }
 
@@ -98,8 +98,8 @@ class Submesh {
     return place;
   }
 
-  // CGAL 5.5 mirrors sources with exactly one zero coordinate about the edge's midpoint. Points
-  // just inside the face are right.
+  // CGAL 5.5 mirrors sources with exactly one zero coordinate about the edge's midpoint, and such
+  // targets too if the source is an end of that edge. Points just inside the face are right.
   static Paths::Barycentric_coordinates inside(Paths::Barycentric_coordinates b) {
     constexpr double kInside = 1e-12;
     double sum = 0;

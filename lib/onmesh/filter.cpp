@@ -1,1 +1,317 @@
 #include "onmesh/filter.h"
+
+#include <sys/resource.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "onmesh/error.h"
+#include "onmesh/filter_patches.h"
+#include "onmesh/filter_setup.h"
+#include "onmesh/gutter.h"
+#include "onmesh/poisson.h"
+#include "onmesh/refine.h"
+
+namespace onmesh {
+namespace {
+
+/// Exact distances that would take longer are refused.
+constexpr double kLongestExactRun = 3600;
+
+std::uint64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+/// Notes the time between its calls as stages of the report, and announces stages to the user.
+class Stages {
+ public:
+  Stages(FilterReport& report, const Progress& progress) : report_(report), progress_(progress) {}
+  void begin(const char* stage) {
+    stage_ = stage;
+    start_ = std::chrono::steady_clock::now();
+    advance(0);
+  }
+  void advance(double done) const {
+    if (progress_) progress_(stage_, done);
+  }
+  void end() {
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start_;
+    report_.stages.push_back({stage_, taken.count(), peak_memory()});
+    advance(1);
+  }
+
+ private:
+  FilterReport& report_;
+  const Progress& progress_;
+  const char* stage_ = "";
+  std::chrono::steady_clock::time_point start_;
+};
+
+/// The colours to filter: the texture's own pixels where its colour channels come first, else a
+/// copy of them in `packed`.
+Colours gather_colours(const Image& texture, bool bilateral, std::vector<float>& packed) {
+  const std::vector<int> channels = texture.range_channels();
+  const auto count = static_cast<int>(channels.size());
+  if (channels.back() == count - 1) {
+    return {texture.pixels.data(), count, bilateral ? count : 0, texture.channels};
+  }
+  const auto texels = std::size_t(texture.width) * std::size_t(texture.height);
+  packed.reserve(texels * channels.size());
+  for (std::size_t t = 0; t < texels; ++t) {
+    for (const int c : channels) packed.push_back(texture.texel(Index(t))[c]);
+  }
+  return {packed.data(), count, bilateral ? count : 0, count};
+}
+
+/// The map with only the first claim of every texel (the lowest face's).
+TexelMap first_claims(const TexelMap& map) {
+  TexelMap first = map;
+  std::vector<bool> taken(map.coverage.size(), false);
+  first.claims.clear();
+  for (std::size_t f = 0; f + 1 < map.face_offsets.size(); ++f) {
+    for (Index k = map.face_offsets[f]; k < map.face_offsets[f + 1]; ++k) {
+      const Index texel = map.texel(map.claims[k]);
+      if (!taken[texel]) first.claims.push_back(map.claims[k]);
+      taken[texel] = true;
+    }
+    first.face_offsets[f + 1] = Index(first.claims.size());
+  }
+  return first;
+}
+
+Samples draw_poisson(const FilterSetup& setup, const NodeSurface& surface, std::uint64_t seed,
+                     const Progress& progress) {
+  PoissonOptions options;
+  options.spacing = setup.plan.sample_spacing;
+  options.seed = seed;
+  options.faces.resize(setup.mesh.faces.size());
+  double area = 0;
+  for (Index f = 0; f < options.faces.size(); ++f) {
+    options.faces[f] = setup.map.texel_area[f] > 0;
+    if (options.faces[f]) area += setup.mesh.face_area(f);
+  }
+  const std::vector<SurfacePoint> points = poisson_samples(setup.mesh, options, progress);
+  return point_samples(setup.mesh, setup.map, surface, points, area / double(points.size()));
+}
+
+/// Takes the kernel's results and puts them into the image. Every texel is written by one thread:
+/// those with several claims wait in a list of their own until all are there.
+class Results {
+ public:
+  Results(const Image& texture, const TexelMap& map, const Samples& sources, const Samples& targets,
+          Image& image)
+      : texture_(texture), targets_(targets), channels_(texture.range_channels()), image_(image) {
+    find_range(sources, targets);
+    std::vector<bool> overlapped(map.coverage.size(), false);
+    const std::vector<Index> texels = map.overlapped();
+    if (texels.empty() || targets.samples.size() < map.claims.size()) return;
+    for (const Index t : texels) overlapped[t] = true;
+    for (Index k = 0; k < targets.samples.size(); ++k) {
+      if (overlapped[targets.samples[k].texel]) shared_.push_back(k);
+    }
+    shared_values_.resize(shared_.size() * channels_.size());
+  }
+
+  void store(Index target, const float* values) {
+    const auto at = std::lower_bound(shared_.begin(), shared_.end(), target);
+    if (at != shared_.end() && *at == target) {
+      const auto first = std::size_t(at - shared_.begin()) * channels_.size();
+      std::copy_n(values, channels_.size(), shared_values_.begin() + std::ptrdiff_t(first));
+    } else {
+      write(targets_.samples[target].texel, values);
+    }
+  }
+
+  /// Texels with several claims get the mean of their results, weighted by area.
+  void merge_shared() {
+    std::vector<std::size_t> order(shared_.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    const auto texel = [&](std::size_t k) { return targets_.samples[shared_[k]].texel; };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return texel(a) < texel(b); });
+    std::vector<double> sum(channels_.size());
+    std::vector<float> mean(channels_.size());
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+      std::fill(sum.begin(), sum.end(), 0.0);
+      double area = 0;
+      for (end = begin; end < order.size() && texel(order[end]) == texel(order[begin]); ++end) {
+        const double a = targets_.samples[shared_[order[end]]].area;
+        area += a;
+        for (std::size_t c = 0; c < sum.size(); ++c) {
+          sum[c] += a * shared_values_[order[end] * sum.size() + c];
+        }
+      }
+      for (std::size_t c = 0; c < sum.size(); ++c) mean[c] = static_cast<float>(sum[c] / area);
+      write(texel(order[begin]), mean.data());
+    }
+  }
+
+ private:
+  /// Smallest and largest value of the samples, and of the targets, which may keep theirs.
+  void find_range(const Samples& sources, const Samples& targets) {
+    lowest_.assign(channels_.size(), std::numeric_limits<float>::infinity());
+    highest_.assign(channels_.size(), -std::numeric_limits<float>::infinity());
+    for (const Samples* samples : {&sources, &targets}) {
+      for (const Sample& s : samples->samples) {
+        const float* const own = texture_.texel(s.texel);
+        for (std::size_t c = 0; c < channels_.size(); ++c) {
+          const float value = own[channels_[c]];
+          if (!std::isfinite(value)) continue;
+          lowest_[c] = std::min(lowest_[c], value);
+          highest_[c] = std::max(highest_[c], value);
+        }
+      }
+      if (&sources == &targets) break;
+    }
+  }
+
+  /// Rounding must not leave the samples' range; values that are not finite were kept as they are.
+  void write(Index texel, const float* values) {
+    const float* const own = texture_.texel(texel);
+    if (std::any_of(channels_.begin(), channels_.end(),
+                    [own](int c) { return !std::isfinite(own[c]); })) {
+      return;
+    }
+    float* const out = image_.texel(texel);
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+      out[channels_[c]] = std::clamp(values[c], lowest_[c], highest_[c]);
+    }
+  }
+
+  const Image& texture_;
+  const Samples& targets_;
+  const std::vector<int> channels_;
+  Image& image_;
+  std::vector<float> lowest_, highest_;
+  std::vector<Index> shared_;  ///< targets whose texel has several, ascending
+  std::vector<float> shared_values_;
+};
+
+std::string duration_text(double seconds) {
+  const bool days = seconds > 48 * 3600;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f %s", seconds / (days ? 86400 : 3600),
+                days ? "days" : "hours");
+  return text;
+}
+
+void refuse_long_runs(const PatchWork& work) {
+  const double seconds = estimate_table_seconds(work) / tbb::this_task_arena::max_concurrency();
+  if (seconds > kLongestExactRun) {
+    throw InputError("--distance exact: would take about " + duration_text(seconds) +
+                     "; use unfold or heat, or a smaller texture or mesh");
+  }
+}
+
+Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& options,
+          FilterReport& report, const Progress& progress) {
+  Stages stages(report, progress);
+  stages.begin("texel map");
+  FilterSetup setup = set_up_filter(mesh, texture, options);
+  const FilterPlan& plan = setup.plan;
+  report.sigma_spatial = plan.sigma_spatial;
+  report.radius = plan.radius;
+  report.node_spacing = plan.node_spacing;
+  report.sample_spacing = plan.sample_spacing;
+  report.texel_size = plan.texel_size;
+  report.overlapped = plan.overlapped;
+  report.warnings = plan.warnings;
+  stages.end();
+
+  stages.begin("refine");
+  RefineOptions refine_options;
+  refine_options.spacing = plan.node_spacing;
+  refine_options.finest = plan.finest_spacing;
+  NodeSurface surface = refine(setup.mesh, make_half_edge_mesh(setup.mesh), refine_options);
+  report.nodes = surface.nodes.nodes.size();
+  report.node_faces = surface.nodes.faces.size();
+  stages.end();
+
+  stages.begin("samples");
+  const bool poisson = options.samples == SampleKind::poisson;
+  const bool first_only = options.overlap == Overlap::first && plan.overlapped > 0;
+  Samples other_targets;
+  Samples sources = poisson ? draw_poisson(setup, surface, options.seed, progress)
+                            : texel_samples(setup.map, surface);
+  if (first_only) {
+    other_targets = texel_samples(first_claims(setup.map), surface);
+  } else if (poisson) {
+    other_targets = texel_samples(setup.map, surface);
+  }
+  const Samples& targets = poisson || first_only ? other_targets : sources;
+  surface.overlay = {};
+  report.samples = sources.samples.size();
+  report.texels = targets.samples.size();
+  stages.end();
+
+  stages.begin("filter");
+  const bool bilateral = options.kind == FilterKind::bilateral;
+  const auto backend = make_backend(options.distance, setup.mesh, surface.nodes);
+  report.backend = backend->name();
+  report.backend_reason = options.distance == DistanceMethod::automatic
+                              ? "the default for manifold meshes"
+                              : "asked for";
+  report.instruction_set = kernel_target();
+  Image image = texture;
+  std::vector<float> packed;
+  PatchWork work;
+  work.nodes = &surface.nodes;
+  work.backend = backend.get();
+  work.sources = &sources;
+  work.targets = &targets;
+  work.colours = gather_colours(texture, bilateral, packed);
+  work.kernel = {plan.sigma_spatial, plan.radius, bilateral ? options.sigma_range : 0};
+  work.texel_size = plan.texel_size;
+  if (options.distance == DistanceMethod::exact) refuse_long_runs(work);
+  {
+    Results results(texture, setup.map, sources, targets, image);
+    const PatchCounts counts = filter_patches(
+        work, [&](Index target, const float* values) { results.store(target, values); },
+        [&](double done) { stages.advance(done); });
+    results.merge_shared();
+    report.patches = counts.patches;
+    report.pairs = counts.pairs;
+    report.without_sample = counts.without_sample;
+    report.table_rows = counts.table_rows;
+    report.table_cpu_seconds = counts.table_cpu_seconds;
+    report.kernel_cpu_seconds = counts.kernel_cpu_seconds;
+  }
+  sources = {};
+  other_targets = {};
+  surface = {};
+  packed = {};
+  stages.end();
+
+  stages.begin("gutter");
+  report.gutter = fill_gutter(setup.mesh, setup.map, options.gutter, image).size();
+  stages.end();
+  return image;
+}
+
+}  // namespace
+
+Image filter(const TriangleMesh& mesh, const Image& texture, const FilterOptions& options,
+             FilterReport* report, const Progress& progress) {
+  FilterReport unused;
+  FilterReport& out = report != nullptr ? *report : unused;
+  out = {};
+  if (options.threads < 0) throw UsageError("--threads: must not be negative");
+  const int available = tbb::info::default_concurrency();
+  const int threads = options.threads > 0 ? options.threads : available;
+  // More threads than processors need to be allowed first.
+  std::optional<tbb::global_control> more;
+  if (threads > available) {
+    more.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+  }
+  tbb::task_arena arena(threads);
+  return arena.execute([&] { return run(mesh, texture, options, out, progress); });
+}
+
+}  // namespace onmesh

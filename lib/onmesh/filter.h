@@ -22,30 +22,49 @@ struct FilterOptions {
   FilterKind kind = FilterKind::bilateral;
   Length sigma_spatial{4, Length::Unit::texel};  ///< > 0
   double sigma_range = 0.1;                      ///< value units, > 0; bilateral only
-  std::optional<Length> radius;        ///< default 2.5 sigma (bilateral), 3 sigma (Gaussian)
+  std::optional<Length> radius;  ///< default 2.5 sigma (bilateral), 3 sigma (Gaussian)
   DistanceMethod distance = DistanceMethod::automatic;
   SampleKind samples = SampleKind::texel;
   std::optional<Length> spacing;       ///< Poisson spacing; default: every texel is hit
   std::optional<double> r_coef;        ///< Poisson spacing in mean edge lengths, > 0
   std::optional<Length> node_spacing;  ///< default: the spacing rule
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;              ///< of the Poisson samples
   int threads = 0;                     ///< 0 = all
   int gutter = 2;                      ///< rings of 8-neighbours, >= 0
   Overlap overlap = Overlap::average;
   Wrap wrap = Wrap::repeat;
-  std::vector<bool> faces;             ///< faces that carry the texture (as given); empty = all with UVs
+  std::vector<bool> faces;  ///< faces that carry the texture (as given); empty = all with UVs
+};
+
+/// What a run will do, as far as it is known without running. Lengths in mesh units.
+struct FilterPlan {
+  double sigma_spatial = 0, radius = 0;
+  double node_spacing = 0, finest_spacing = 0;
+  double sample_spacing = 0;  ///< Poisson mode only
+  double texel_size = 0, diagonal = 0, surface_area = 0;
+  std::uint64_t texels = 0;      ///< targets, each claim of a texel counted
+  std::uint64_t overlapped = 0;  ///< texels claimed more than once
+  std::uint64_t nodes = 0, samples = 0, memory_bytes = 0;  ///< estimates
+  std::vector<std::string> warnings;
 };
 
 struct StageTime {
   std::string stage;
   double seconds = 0;
+  std::uint64_t peak_memory_bytes = 0;  ///< of the process, up to the stage's end
 };
 
 struct FilterReport {
-  std::string backend, backend_reason;
-  double sigma_spatial = 0, radius = 0, node_spacing = 0, sample_spacing = 0, texel_size = 0;  ///< mesh units
-  std::uint64_t texels = 0, samples = 0, nodes = 0, node_faces = 0, patches = 0, pairs = 0;
-  std::uint64_t overlapped = 0, gutter = 0, without_sample = 0;
+  std::string backend, backend_reason, instruction_set;
+  /// Mesh units; sample_spacing in Poisson mode only.
+  double sigma_spatial = 0, radius = 0, node_spacing = 0, sample_spacing = 0, texel_size = 0;
+  std::uint64_t texels = 0, samples = 0, nodes = 0, node_faces = 0, patches = 0;
+  std::uint64_t pairs = 0;           ///< (target, sample) pairs within the radius
+  std::uint64_t table_rows = 0;      ///< nodes that distances were computed from, all patches
+  std::uint64_t overlapped = 0;      ///< texels claimed more than once
+  std::uint64_t gutter = 0;          ///< texels filled around the charts
+  std::uint64_t without_sample = 0;  ///< targets that kept their values
+  double table_cpu_seconds = 0, kernel_cpu_seconds = 0;  ///< summed over threads
   std::vector<StageTime> stages;
   std::vector<std::string> warnings;
 };
@@ -53,9 +72,16 @@ struct FilterReport {
 /// Filter `texture` on the surface of `mesh` (DESIGN: definition of the filter in README).
 /// Same input and options give identical values for any thread count.
 /// \pre mesh is as read; it is welded and cleaned here
-/// \throw InputError if no face carries a texel, the mesh is not manifold, or (Overlap::error) a texel
-///   is claimed twice; UsageError for options outside their domain
+/// \throw InputError if no face carries a texel, the mesh is not manifold, the exact distances
+/// would
+///   take more than an hour, or (Overlap::error) a texel is claimed twice
+/// \throw UsageError for options outside their domain or ignored by the mode chosen
 Image filter(const TriangleMesh& mesh, const Image& texture, const FilterOptions& options,
              FilterReport* report = nullptr, const Progress& progress = {});
+
+/// Check everything that filter() checks before its work starts, and tell what it would do.
+/// \throw as filter()
+FilterPlan plan_filter(const TriangleMesh& mesh, const Image& texture,
+                       const FilterOptions& options);
 
 }  // namespace onmesh

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <unordered_set>
 
 #include "onmesh/gutter_texels.h"
@@ -235,22 +234,20 @@ void GutterFill::fill(Index texel, const NearestEdge& nearest) const {
   }
   const Eigen::Matrix3d to_pixel = pixel_of_barycentric * plane.inverse();
 
-  // Where the texel's centre lies if the face went on: over the seam, in some other face's plane.
+  // Where the texel's centre lies if the face went on: over the seam, in some other face's plane,
+  // or where the surface ends on the way there.
   const Vec3 beyond = map_.to_barycentric(face) * Vec3(centre.x(), centre.y(), 1);
-  const Vec2 target = laid.point(beyond);
-  std::optional<LaidFace> landed = walk_.over_surface(laid, edge_point, target);
-  if (landed && map_.chart_of_face[landed->face] == kNone) landed.reset();
+  WalkEnd end = walk_.over_surface(laid, edge_point, laid.point(beyond));
+  if (map_.chart_of_face[end.laid.face] == kNone) end = {laid, edge_point, false};
+  const Vec3 b = barycentric_in(end.laid.corners, end.point);
+  const auto corners = walk_.pixel_corners(end.laid.face);
+  const Vec2 there = b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2];
+  if (bilinear(end.laid, there, texel)) return;
+  const Vec2 here =
+      end.arrived ? centre : Vec2((to_pixel * Vec3(end.point.x(), end.point.y(), 1)).head<2>());
   std::vector<Support> supports;
-  if (landed) {
-    const Vec3 b = barycentric_in(landed->corners, target);
-    const auto corners = walk_.pixel_corners(landed->face);
-    const Vec2 pixel = b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2];
-    if (bilinear(*landed, pixel, texel)) return;
-    gather(*landed, pixel, pixel, to_pixel, centre, supports);
-    gather(laid, edge_pixel, centre, to_pixel, centre, supports);
-  } else {  // the surface ends here, or bears another texture
-    gather(laid, edge_pixel, edge_pixel, to_pixel, edge_pixel, supports);
-  }
+  gather(laid, edge_pixel, here, to_pixel, here, supports);
+  if (end.laid.face != face) gather(end.laid, there, there, to_pixel, here, supports);
   if (!fit(supports, texel)) copy_nearest_claim(face, centre, texel);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <tuple>
 
@@ -105,6 +106,27 @@ std::vector<Index> find_components(const Patch& patch) {
   return parent;
 }
 
+// The largest number of edges from a component's first node to any of its nodes: half a bound of
+// the component's diameter in longest edges.
+int most_hops(const Patch& patch) {
+  const std::vector<Index> component = find_components(patch);
+  constexpr int kUnknown = std::numeric_limits<int>::max() - 1;
+  std::vector<int> hops(component.size());
+  for (Index i = 0; i < hops.size(); ++i) hops[i] = component[i] == i ? 0 : kUnknown;
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (const auto& c : patch.corners) {
+      const int next = std::min({hops[c[0]], hops[c[1]], hops[c[2]]}) + 1;
+      for (const Index v : c)
+        if (hops[v] > next) hops[v] = next, changed = true;
+    }
+  }
+  int most = 0;
+  for (const int h : hops) most = std::max(most, h);
+  return most;
+}
+
 // Splits every face 1 -> 4; returns the mean edge length of the split patch.
 double split_faces(const Patch& patch, System& system) {
   Index edges = 0;
@@ -138,7 +160,11 @@ System make_system(const Patch& patch, double reach) {
   const double spacing = split_faces(patch, system);
   // sqrt(t) is .84 node spacings: below, the mesh does not resolve the front; above, curvature
   // bends it more. Far out it grows so that exp(-reach / sqrt(t)) stays a float.
-  const double root_time = std::max(0.84 * 2 * spacing, reach / system.scale / 60);
+  constexpr double kDecay = 60;
+  double root_time = 0.84 * 2 * spacing;
+  if (reach > kDecay * root_time * system.scale)
+    root_time =
+        std::max(root_time, std::min(reach / system.scale, 2.0 * most_hops(patch)) / kDecay);
   const double time = root_time * root_time;
 
   // Stiffness (positive semidefinite) and lumped mass.

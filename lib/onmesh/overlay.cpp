@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "onmesh/intrinsic.h"
 
@@ -24,7 +25,7 @@ Circle incircle(const Corners& at) {
   const double a = (at[2] - at[1]).norm(), b = (at[0] - at[2]).norm(), c = (at[1] - at[0]).norm();
   const double perimeter = a + b + c;
   return {(a * at[0] + b * at[1] + c * at[2]) / perimeter,
-          std::abs(cross(at[1] - at[0], at[2] - at[0])) / perimeter};
+          std::abs(cross(at[1] - at[0], at[2] - at[0])) / perimeter + 1e-7 * perimeter};
 }
 
 // Lays out the intrinsic faces over one input face after the other.
@@ -39,8 +40,7 @@ class Layouter {
     placed_.clear();
     margin_ = 1e-8 * smallest_altitude();
     start();
-    // The bound only matters where rounding has the better of a face (heights of 1e-8 its length).
-    for (std::size_t i = 0; i < std::min(placed_.size(), 64 + 4 * newest_.size()); ++i) {
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
       for (Index k = 0; k < 3; ++k) cross_edge(i, k);
     }
     for (const Placed& p : placed_) {
@@ -109,30 +109,45 @@ class Layouter {
   }
 
   // A laid-out node that lies in this input face is put where it is known to be, so that rounding
-  // does not add up from face to face.
+  // does not add up from face to face. A node laid out inside the input face is the one that lies
+  // there: both faces are convex, so the way to it leads through neither's outside.
   Vec2 anchored(Index node, const Vec2& laid_out, double scale) const {
-    const auto settle = [&](const Vec2& known) {
-      return (known - laid_out).norm() < 1e-6 * scale ? known : laid_out;
-    };
+    std::optional<Vec2> known;
     if (node < t_.input_vertex_count()) {
       for (Index k = 0; k < 3; ++k) {
-        if (t_.input().tail[3 * face_ + k] == node && (input_[k] - laid_out).norm() < 1e-6 * scale)
-          return input_[k];
+        if (t_.input().tail[3 * face_ + k] != node) continue;
+        if (!known || (input_[k] - laid_out).norm() < (*known - laid_out).norm()) known = input_[k];
       }
-      return laid_out;
+    } else if (const SurfacePoint& p = t_.location(node); p.face == face_) {
+      known = input_[0] * p.barycentric[0] + input_[1] * p.barycentric[1] +
+              input_[2] * p.barycentric[2];
     }
-    const SurfacePoint& p = t_.location(node);
-    if (p.face != face_) return laid_out;
-    return settle(input_[0] * p.barycentric[0] + input_[1] * p.barycentric[1] +
-                  input_[2] * p.barycentric[2]);
+    if (!known) return laid_out;
+    const double off = (*known - laid_out).norm();
+    return off < 1e-6 * scale || off < std::min(depth(laid_out), 0.1 * scale) ? *known : laid_out;
+  }
+
+  // How far inside the input face a point lies; negative outside.
+  double depth(const Vec2& x) const {
+    double least = 1e300;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 side = input_[(k + 1) % 3] - input_[k];
+      least = std::min(least, cross(side, x - input_[k]) / side.norm());
+    }
+    return least;
   }
 
   void place(Placed p) {
     Seen& seen = newest_[p.face];
     if (seen.input_face == face_) {
-      // Two placements side by side have their incircles apart.
+      // Two placements side by side have their incircles apart; flat faces, whose incircle is all
+      // rounding, count as one.
       const Circle circle = incircle(p.at);
+      int copies = 0;
       for (Index i = seen.placed; i != kNone; i = placed_[i].older) {
+        // A Delaunay face winds around an input face a few times at most; more is rounding going
+        // round and round the tip of a needle.
+        if (++copies == 64) return;
         if ((incircle(placed_[i].at).centre - circle.centre).norm() <= circle.radius) return;
       }
       p.older = seen.placed;

@@ -54,6 +54,11 @@ class Random {
   std::uint64_t state_;
 };
 
+Vec3 position_on(const TriangleMesh& mesh, const SurfacePoint& p) {
+  const auto t = mesh.corners(p.face);
+  return p.barycentric[0] * t[0] + p.barycentric[1] * t[1] + p.barycentric[2] * t[2];
+}
+
 class Sampler {
  public:
   Sampler(const TriangleMesh& mesh, const PoissonOptions& options, const Progress& progress);
@@ -104,10 +109,6 @@ class Sampler {
   bool covers(const Near& near, const Cell& cell) const {
     const Vec2 d = (near.foot - cell.low).cwiseMax(cell.high - near.foot);
     return near.joined && d.squaredNorm() + near.squared_height < squared_spacing_;
-  }
-  Vec3 position(const SurfacePoint& p) const {
-    const auto t = mesh_.corners(p.face);
-    return p.barycentric[0] * t[0] + p.barycentric[1] * t[1] + p.barycentric[2] * t[2];
   }
   void report(double done) const {
     if (progress_) progress_("sample", done);
@@ -206,7 +207,7 @@ void Sampler::throw_candidates() {
       const auto face = std::upper_bound(area_below_.begin(), area_below_.end() - 1, target);
       batch[j] = {faces_[std::size_t(face - area_below_.begin())],
                   {points->x(), points->y(), points->z()}};
-      const Vec3 place = (position(batch[j]) - origin_) / (kGridCell * spacing_);
+      const Vec3 place = (position_on(mesh_, batch[j]) - origin_) / (kGridCell * spacing_);
       order[j] = {{Index(place[0]), Index(place[1]), Index(place[2])}, Index(j)};
     }
     std::sort(order.begin(), order.end());
@@ -302,7 +303,7 @@ bool Sampler::throw_dart(const FaceFrame& frame, const Cell& cell, bool finest, 
     dart.barycentric = frame.barycentric(place);
     if (dart.barycentric.minCoeff() < 0) return false;
   }
-  const Vec3 p = position(dart);
+  const Vec3 p = position_on(mesh_, dart);
   for (std::size_t i = first; i < near_.size(); ++i)
     if (near_[i].joined && close(positions_[near_[i].sample], p)) return false;
   ball_.find(dart.face, p, spacing_);
@@ -316,7 +317,7 @@ bool Sampler::throw_dart(const FaceFrame& frame, const Cell& cell, bool finest, 
 
 // Adds the dart unless it conflicts with a sample.
 bool Sampler::throw_dart(const SurfacePoint& dart) {
-  const Vec3 p = position(dart);
+  const Vec3 p = position_on(mesh_, dart);
   bool unjoined = false;
   const bool conflict = grid_.visit(p, spacing_, [&](Index i) {
     if (!close(positions_[i], p)) return false;
@@ -356,6 +357,37 @@ std::vector<SurfacePoint> poisson_samples(const TriangleMesh& mesh, const Poisso
   if (!(options.spacing > 0) || !(squared > 0) || !std::isfinite(squared))
     throw UsageError("the spacing of Poisson samples must be a positive number");
   return Sampler(mesh, options, progress).run();
+}
+
+double least_sample_distance(const TriangleMesh& mesh, const std::vector<SurfacePoint>& samples,
+                             double spacing) {
+  std::vector<Vec3> positions(samples.size());
+  Vec3 origin = Vec3::Constant(std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    positions[i] = position_on(mesh, samples[i]);
+    origin = origin.cwiseMin(positions[i]);
+  }
+  PointGrid grid(origin, kGridCell * spacing, samples.size());
+  for (const Vec3& p : positions) grid.insert(p);
+  SurfaceBall ball(mesh);
+  double least = 4 * spacing * spacing;
+  bool any = false;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    bool searched = false;  // the ball around this sample
+    grid.visit(positions[i], std::sqrt(least), [&](Index j) {
+      const double squared = (positions[i] - positions[j]).squaredNorm();
+      if (j == i || squared > least) return false;
+      if (squared < spacing * spacing) {
+        if (!searched) ball.find(samples[i].face, positions[i], spacing);
+        searched = true;
+        if (!ball.found(samples[j].face)) return false;  // j's own turn comes, or came
+      }
+      least = squared;
+      any = true;
+      return false;
+    });
+  }
+  return any ? std::sqrt(least) : std::numeric_limits<double>::infinity();
 }
 
 double default_poisson_spacing(const TriangleMesh& mesh, const TexelMap& map) {

@@ -31,6 +31,12 @@ struct PoissonOptions {
 std::vector<SurfacePoint> poisson_samples(const TriangleMesh& mesh, const PoissonOptions& options,
                                           const Progress& progress = {});
 
+/// Smallest distance of two samples in space, leaving out pairs closer than the spacing that don't
+/// conflict because the surface does not join them; infinite if no two are within twice the
+/// spacing.
+double least_sample_distance(const TriangleMesh& mesh, const std::vector<SurfacePoint>& samples,
+                             double spacing);
+
 /// Spacing for poisson_samples() at which texels are hit: in a maximal set every disc whose radius
 /// is the spacing holds a sample, so the spacing is the radius of the disc inscribed in a texel on
 /// the surface (half a texel where texels are square). Texels differ in size: the radius taken is

@@ -1,6 +1,7 @@
 #include "onmesh/surface_walk.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "onmesh/uv_raster.h"
@@ -121,32 +122,44 @@ std::optional<LaidFace> SurfaceWalk::cross(const LaidFace& laid, int k) const {
 
 /// Leave `start` over the edge and go on to the face that holds `to`.
 template <bool by_uv>
-std::optional<LaidFace> SurfaceWalk::walk_out(const LaidFace& start, int edge, const Vec2& from,
-                                              const Vec2& to) const {
-  LaidFace laid = start;
+WalkEnd SurfaceWalk::walk_out(const LaidFace& start, int edge, const Vec2& from,
+                              const Vec2& to) const {
+  WalkEnd end{start, from, false};
   for (int step = 0; step < kMostSteps; ++step) {
-    const Index entered = across(laid.face, edge);
-    const auto onward = cross<by_uv>(laid, edge);
-    if (!onward) return std::nullopt;
-    laid = *onward;
-    const auto corners = steering_corners<by_uv>(laid);
-    const bool can_hold = !by_uv || map_.chart_of_face[laid.face] != kNone;
-    if (can_hold && barycentric_in(corners, to).minCoeff() >= kInside) return laid;
-    // The way passes between the entered edge's ends; the apex tells which other edge it leaves by.
+    const Index entered = across(end.laid.face, edge);
+    const auto onward = cross<by_uv>(end.laid, edge);
+    if (!onward) break;
+    end.laid = *onward;
+    const auto corners = steering_corners<by_uv>(end.laid);
+    const bool can_hold = !by_uv || map_.chart_of_face[end.laid.face] != kNone;
+    if (can_hold && barycentric_in(corners, to).minCoeff() >= kInside) {
+      end.point = to;
+      end.arrived = true;
+      return end;
+    }
+    // The way passes between the entered edge's ends a and b; the side of the apex c tells which
+    // other edge it leaves by. It may start in a or b, so go by the end further from the way.
     const std::size_t a = entered % 3, b = next(a), c = next(b);
-    const double side_b = turn(from, to, corners[b]), side_c = turn(from, to, corners[c]);
-    edge = int(side_b * side_c > 0 ? c : b);
+    const double side_a = turn(from, to, corners[a]), side_b = turn(from, to, corners[b]);
+    const double side_c = turn(from, to, corners[c]);
+    const bool by_b =
+        std::abs(side_b) >= std::abs(side_a) ? side_b * side_c <= 0 : side_a * side_c > 0;
+    const std::size_t exit = by_b ? b : c;
+    edge = int(exit);
+    const Vec2 &p = corners[exit], &q = corners[next(exit)];
+    const double side_p = turn(from, to, p), side_q = turn(from, to, q);
+    const double t = side_p == side_q ? 0 : std::clamp(side_p / (side_p - side_q), 0.0, 1.0);
+    end.point = p + t * (q - p);
   }
-  return std::nullopt;
+  return end;
 }
 
 template <bool by_uv>
-std::optional<LaidFace> SurfaceWalk::walk(const LaidFace& start, const Vec2& from,
-                                          const Vec2& to) const {
+WalkEnd SurfaceWalk::walk(const LaidFace& start, const Vec2& from, const Vec2& to) const {
   const auto corners = steering_corners<by_uv>(start);
   const Vec3 b = barycentric_in(corners, to);
-  if (!b.allFinite()) return std::nullopt;
-  if (b.minCoeff() >= kInside) return start;
+  if (!b.allFinite()) return {start, from, false};
+  if (b.minCoeff() >= kInside) return {start, to, true};
   // Beyond which edges does `to` lie? Edge k is opposite to corner k + 2.
   std::array<std::size_t, 2> beyond{};
   std::size_t count = 0;
@@ -159,21 +172,22 @@ std::optional<LaidFace> SurfaceWalk::walk(const LaidFace& start, const Vec2& fro
   const double winding = turn(corners[0], corners[1], corners[2]) > 0 ? 1 : -1;
   const double side = winding * turn(from, to, corners[corner]);
   const std::size_t choice = side > 0 ? first : corner;
-  const auto result = walk_out<by_uv>(start, int(choice), from, to);
+  const WalkEnd result = walk_out<by_uv>(start, int(choice), from, to);
   const bool through_corner =
       std::abs(side) <= 1e-9 * (to - from).norm() * (corners[0] - corners[1]).norm();
-  if (result || !through_corner) return result;
+  if (result.arrived || !through_corner) return result;
   return walk_out<by_uv>(start, int(side > 0 ? corner : first), from, to);
 }
 
-std::optional<LaidFace> SurfaceWalk::over_surface(const LaidFace& start, const Vec2& from,
-                                                  const Vec2& to) const {
+WalkEnd SurfaceWalk::over_surface(const LaidFace& start, const Vec2& from, const Vec2& to) const {
   return walk<false>(start, from, to);
 }
 
 std::optional<LaidFace> SurfaceWalk::within_chart(const LaidFace& start, const Vec2& from,
                                                   const Vec2& to) const {
-  return walk<true>(start, from, to);
+  const WalkEnd end = walk<true>(start, from, to);
+  if (!end.arrived) return std::nullopt;
+  return end.laid;
 }
 
 }  // namespace onmesh

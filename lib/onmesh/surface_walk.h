@@ -22,6 +22,13 @@ struct LaidFace {
   }
 };
 
+/// Where a walk ended.
+struct WalkEnd {
+  LaidFace laid;
+  Vec2 point;            ///< in the plane
+  bool arrived = false;  ///< else the way is barred at the point, on the face's border
+};
+
 /// Barycentric coordinates in a triangle of the plane; not finite if it has no area.
 Vec3 barycentric_in(const std::array<Vec2, 3>& triangle, const Vec2& p);
 
@@ -33,11 +40,11 @@ class SurfaceWalk {
   LaidFace lay_out(Index face) const;
 
   /// Go straight from a point in or on the face to `to`, both in its plane, over any edge that just
-  /// two faces share. \return the face that holds `to`, nothing if the way is barred
-  std::optional<LaidFace> over_surface(const LaidFace& start, const Vec2& from,
-                                       const Vec2& to) const;
+  /// two faces share, up to the face that holds `to` or to where the surface ends.
+  WalkEnd over_surface(const LaidFace& start, const Vec2& from, const Vec2& to) const;
 
   /// The same with points in pixels, steering by the UVs and without leaving the chart.
+  /// \return the face that holds `to`, nothing if the way is barred
   std::optional<LaidFace> within_chart(const LaidFace& start, const Vec2& from,
                                        const Vec2& to) const;
 
@@ -52,10 +59,9 @@ class SurfaceWalk {
 
  private:
   template <bool by_uv>
-  std::optional<LaidFace> walk(const LaidFace& start, const Vec2& from, const Vec2& to) const;
+  WalkEnd walk(const LaidFace& start, const Vec2& from, const Vec2& to) const;
   template <bool by_uv>
-  std::optional<LaidFace> walk_out(const LaidFace& start, int edge, const Vec2& from,
-                                   const Vec2& to) const;
+  WalkEnd walk_out(const LaidFace& start, int edge, const Vec2& from, const Vec2& to) const;
   template <bool by_uv>
   std::array<Vec2, 3> steering_corners(const LaidFace& laid) const;
   template <bool by_uv>

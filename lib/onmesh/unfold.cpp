@@ -61,6 +61,7 @@ void march(const Complex<T>& complex, const Index* sources, int count, Scratch<T
   const hn::CappedTag<T, kLanes> d;
   const int lanes = int(hn::Lanes(d));
   const auto zero = hn::Zero(d), two = hn::Set(d, T(2)), far = hn::Set(d, T(kFar));
+  const auto reached = hn::Set(d, T(kFar) / 2);  // whatever follows from kFar is more
   // Smaller improvements are kept, but not passed on: rounding must not keep the march busy.
   const auto significant = hn::Set(d, sizeof(T) == 4 ? T(1 - 1e-6) : T(1 - 1e-12));
   const auto tolerance = hn::Set(d, sizeof(T) == 4 ? T(-1e-5) : T(-1e-11));
@@ -120,7 +121,7 @@ void march(const Complex<T>& complex, const Index* sources, int count, Scratch<T
             hn::MulAdd(two, hn::NegMulAdd(sx, x, hn::Mul(sy, y)), hn::Add(dv, side2));
         const auto along = hn::Add(hn::LoadU(d, root.data() + p), side);
         const auto there = hn::Min(hn::Mul(along, along), hn::IfThenElse(straight, unfolded, far));
-        const auto better = hn::Lt(there, old);
+        const auto better = hn::Lt(there, hn::Min(old, reached));
         if (hn::AllFalse(d, better)) continue;
         changed = true;
         hn::StoreU(hn::IfThenElse(better, hn::Max(there, zero), old), d, at_target + p);
@@ -183,7 +184,8 @@ struct Incidence {
 };
 
 template <class T>
-Complex<T> make_complex(const Patch& patch, const Incidence& around, double reach, double scale) {
+Complex<T> make_complex(const Patch& patch, const Incidence& around, double reach, double scale,
+                        double slack) {
   Complex<T> complex;
   const Index nodes = Index(patch.nodes.size());
   complex.offsets.reserve(nodes + 1);
@@ -214,7 +216,8 @@ Complex<T> make_complex(const Patch& patch, const Incidence& around, double reac
       }
     }
     complex.offsets.push_back(Index(complex.steps.size()));
-    complex.limit2.push_back(T((reach / scale + longest) * (reach / scale + longest)));
+    const double limit = reach / scale + slack * longest;
+    complex.limit2.push_back(T(limit * limit));
   }
   return complex;
 }
@@ -251,8 +254,8 @@ std::vector<Index> order_sources(const Patch& patch, const Incidence& around) {
 
 template <class T>
 void fill_table(const Patch& patch, const Incidence& around, double reach, double scale,
-                DistanceTable& table) {
-  const Complex<T> complex = make_complex<T>(patch, around, reach, scale);
+                double slack, DistanceTable& table) {
+  const Complex<T> complex = make_complex<T>(patch, around, reach, scale, slack);
   const std::vector<Index> order = order_sources(patch, around);
   const std::size_t nodes = patch.nodes.size();
   Scratch<T> scratch;
@@ -290,18 +293,18 @@ class Unfold final : public DistanceBackend {
     table.columns = Index(patch.nodes.size());
     table.squared.assign(std::size_t(table.rows) * table.columns, kUnreachable);
     const Incidence around(patch);
-    // Float is enough for well-shaped faces; needles multiply its rounding by the ratio of their
-    // sides at every step.
+    // Float is enough for well-shaped faces, and nodes more than an edge beyond reach tell those
+    // within nothing. Slivers multiply rounding by their aspect at every step, and see farther.
     double worst = 1;
     for (const auto& l : patch.lengths) {
-      const auto [low, high] = std::minmax({l[0], l[1], l[2]});
-      worst = std::max(worst, high / low);
+      const double longest = std::max({l[0], l[1], l[2]});
+      worst = std::max(worst, longest * longest / (2 * triangle_area(l[0], l[1], l[2])));
     }
     const double scale = patch.longest_edge > 0 ? patch.longest_edge : 1;
     if (worst < 8)
-      fill_table<float>(patch, around, reach, scale, table);
+      fill_table<float>(patch, around, reach, scale, 1, table);
     else
-      fill_table<double>(patch, around, reach, scale, table);
+      fill_table<double>(patch, around, reach, scale, 2, table);
   }
 };
 

@@ -1,0 +1,39 @@
+// The filter's main loop: distances and kernel, patch by patch, in parallel.
+#pragma once
+
+#include <functional>
+
+#include "onmesh/distance.h"
+#include "onmesh/filter.h"
+#include "onmesh/kernel.h"
+
+namespace onmesh {
+
+/// Everything the patches read. All pointers must be set.
+struct PatchWork {
+  const NodeMesh* nodes = nullptr;
+  const DistanceBackend* backend = nullptr;
+  const Samples* sources = nullptr;
+  const Samples* targets = nullptr;
+  Colours colours;
+  KernelOptions kernel;
+  double texel_size = 0;
+};
+
+struct PatchCounts {
+  std::uint64_t patches = 0, pairs = 0, without_sample = 0, table_rows = 0;
+  double table_cpu_seconds = 0, kernel_cpu_seconds = 0;
+};
+
+/// Filter all targets. How they are grouped into patches does not depend on the number of threads.
+/// \param store called for every target with its position in targets->samples and its values, from
+///   any thread; every target once
+/// \param progress called with the share that is done, never twice at once
+PatchCounts filter_patches(const PatchWork& work,
+                           const std::function<void(Index target, const float* values)>& store,
+                           const std::function<void(double)>& progress);
+
+/// CPU seconds that `work` will need for its distances, from timing one small patch.
+double estimate_table_seconds(const PatchWork& work);
+
+}  // namespace onmesh

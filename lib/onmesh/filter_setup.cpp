@@ -1,0 +1,171 @@
+#include "onmesh/filter_setup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "onmesh/error.h"
+#include "onmesh/poisson.h"
+
+namespace onmesh {
+namespace {
+
+void require_positive(const char* flag, double value) {
+  if (!(value > 0) || !std::isfinite(value)) {
+    throw UsageError(std::string(flag) + ": must be positive and finite");
+  }
+}
+
+void check_options(const TriangleMesh& mesh, const FilterOptions& options) {
+  require_positive("--sigma-spatial", options.sigma_spatial.value);
+  if (options.kind == FilterKind::bilateral) {
+    require_positive("--sigma-range", options.sigma_range);
+  }
+  if (options.radius) require_positive("--radius", options.radius->value);
+  if (options.spacing) require_positive("--spacing", options.spacing->value);
+  if (options.r_coef) require_positive("--r-coef", *options.r_coef);
+  if (options.node_spacing) require_positive("--node-spacing", options.node_spacing->value);
+  if (options.spacing && options.r_coef) {
+    throw UsageError("--spacing and --r-coef exclude each other");
+  }
+  if (options.samples != SampleKind::poisson && (options.spacing || options.r_coef)) {
+    throw UsageError(std::string(options.spacing ? "--spacing" : "--r-coef") +
+                     ": only with --samples poisson");
+  }
+  if (options.threads < 0) throw UsageError("--threads: must not be negative");
+  if (options.gutter < 0) throw UsageError("--gutter: must not be negative");
+  if (!options.faces.empty() && options.faces.size() != mesh.faces.size()) {
+    throw UsageError("faces: one entry per face of the mesh is needed");
+  }
+}
+
+std::string faces_text(Index count) {
+  return std::to_string(count) + (count == 1 ? " face" : " faces");
+}
+
+/// Weld and clean; `faces` follows from the mesh as given to the clean one.
+TriangleMesh cleaned(const TriangleMesh& mesh, std::vector<bool>& faces,
+                     std::vector<std::string>& warnings) {
+  CleanReport report;
+  TriangleMesh clean_mesh = clean(weld(mesh), &report);
+  if (!faces.empty()) {
+    std::vector<bool> kept(report.kept.size());
+    for (std::size_t f = 0; f < kept.size(); ++f) kept[f] = faces[report.kept[f]];
+    faces = std::move(kept);
+  }
+  if (const Index dropped = report.collapsed + report.duplicates + report.fins; dropped > 0) {
+    warnings.push_back(faces_text(dropped) +
+                       " dropped: repeated vertices, duplicates of other faces, or fins");
+  }
+  if (report.flipped > 0) warnings.push_back(faces_text(report.flipped) + " turned over");
+  return clean_mesh;
+}
+
+void require_claims(const TriangleMesh& mesh, const TexelMap& map, const std::vector<bool>& faces) {
+  if (!map.claims.empty()) return;
+  if (mesh.faces.empty()) throw InputError("the mesh has no faces to filter on");
+  bool any_uvs = false, any_face = faces.empty();
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    any_uvs = any_uvs || mesh.has_uvs(f);
+    any_face = any_face || faces[f];
+  }
+  if (!any_uvs) {
+    throw InputError("the mesh has no UVs, so no texture can be filtered on it");
+  }
+  throw InputError(any_face ? "no texel of the texture lies on a face with area"
+                            : "no face of the mesh carries the texture");
+}
+
+void check_overlaps(const TexelMap& map, const std::vector<Index>& overlapped, Overlap overlap,
+                    std::vector<std::string>& warnings) {
+  if (overlapped.empty()) return;
+  const auto width = static_cast<Index>(map.width);
+  const std::string what =
+      std::to_string(overlapped.size()) + (overlapped.size() == 1 ? " texel is" : " texels are") +
+      " claimed by several places of the surface, the first at column " +
+      std::to_string(overlapped[0] % width) + ", row " + std::to_string(overlapped[0] / width);
+  if (overlap == Overlap::error) throw InputError("--overlap error: " + what);
+  warnings.push_back(what + (overlap == Overlap::average
+                                 ? "; they get the mean of the results (--overlap average)"
+                                 : "; they get the first face's result (--overlap first)"));
+}
+
+/// A texel costs its claim, its samples, and its values in two images; a node with its two faces
+/// what refinement needs for it at most.
+std::uint64_t estimate_memory(const Image& texture, const FilterPlan& plan) {
+  constexpr double kBytesPerTexel = 26, kBytesPerSample = 16, kBytesPerNode = 900;
+  const double values = 2.0 * double(texture.pixels.size()) * sizeof(float);
+  return static_cast<std::uint64_t>(values + kBytesPerTexel * double(plan.texels) +
+                                    kBytesPerSample * double(plan.samples) +
+                                    kBytesPerNode * double(plan.nodes));
+}
+
+}  // namespace
+
+NodeSpacing node_spacing_for(double sigma, double texel_size) {
+  const double smooth = std::max(sigma, 3 * texel_size);
+  const double finest = std::max(sigma / 4, 2 * texel_size);
+  return {smooth, std::min(smooth, finest)};
+}
+
+FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
+                          const FilterOptions& options) {
+  check_options(mesh, options);
+  if (texture.range_channels().empty()) {
+    throw InputError("the texture has no channel but alpha: nothing to filter");
+  }
+  FilterSetup setup;
+  FilterPlan& plan = setup.plan;
+  std::vector<bool> faces = options.faces;
+  setup.mesh = cleaned(mesh, faces, plan.warnings);
+  setup.map = make_texel_map(setup.mesh, texture.width, texture.height, {options.wrap, faces});
+  require_claims(setup.mesh, setup.map, faces);
+  const std::vector<Index> overlapped = setup.map.overlapped();
+  check_overlaps(setup.map, overlapped, options.overlap, plan.warnings);
+
+  plan.texels = setup.map.claims.size();
+  plan.overlapped = overlapped.size();
+  plan.texel_size = setup.map.median_texel_size();
+  plan.diagonal = setup.mesh.diagonal();
+  const auto resolved = [&](const Length& length) {
+    return resolve(length, plan.texel_size, plan.diagonal);
+  };
+  plan.sigma_spatial = resolved(options.sigma_spatial);
+  require_positive("--sigma-spatial", plan.sigma_spatial);
+  plan.radius = options.radius
+                    ? resolved(*options.radius)
+                    : plan.sigma_spatial * (options.kind == FilterKind::bilateral ? 2.5 : 3.0);
+  const NodeSpacing rule = node_spacing_for(plan.sigma_spatial, plan.texel_size);
+  plan.node_spacing = options.node_spacing ? resolved(*options.node_spacing) : rule.smooth;
+  plan.finest_spacing = options.node_spacing ? plan.node_spacing / 4 : rule.finest;
+
+  double textured_area = 0;
+  for (Index f = 0; f < setup.mesh.faces.size(); ++f) {
+    const double area = setup.mesh.face_area(f);
+    plan.surface_area += area;
+    if (setup.map.texel_area[f] > 0) textured_area += area;
+  }
+  plan.samples = plan.texels;
+  if (options.samples == SampleKind::poisson) {
+    plan.sample_spacing = options.spacing  ? resolved(*options.spacing)
+                          : options.r_coef ? *options.r_coef * setup.mesh.mean_edge_length()
+                                           : default_poisson_spacing(setup.mesh, setup.map);
+    // A random maximal set has about 0.7 samples per square of the spacing.
+    plan.samples = static_cast<std::uint64_t>(0.7 * textured_area /
+                                              (plan.sample_spacing * plan.sample_spacing));
+  }
+  // Twice the area of an equilateral triangle per node; refinement stays somewhat below the
+  // spacing.
+  const double area_per_node = plan.node_spacing * plan.node_spacing * std::numbers::sqrt3 / 2;
+  plan.nodes = setup.mesh.positions.size() +
+               static_cast<std::uint64_t>(1.3 * plan.surface_area / area_per_node);
+  plan.memory_bytes = estimate_memory(texture, plan);
+  return setup;
+}
+
+FilterPlan plan_filter(const TriangleMesh& mesh, const Image& texture,
+                       const FilterOptions& options) {
+  return set_up_filter(mesh, texture, options).plan;
+}
+
+}  // namespace onmesh

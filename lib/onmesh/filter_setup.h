@@ -1,0 +1,26 @@
+// The first part of the filter: checked options, cleaned mesh, texel map, resolved lengths.
+#pragma once
+
+#include "onmesh/filter.h"
+
+namespace onmesh {
+
+struct FilterSetup {
+  TriangleMesh mesh;  ///< welded and clean
+  TexelMap map;
+  FilterPlan plan;
+};
+
+FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
+                          const FilterOptions& options);
+
+/// Node spacing on smooth surface and at cones, creases and corners, in mesh units.
+struct NodeSpacing {
+  double smooth = 0, finest = 0;
+};
+
+/// The spacing rule: as coarse as sigma, a quarter of it where distances bend, but with enough
+/// texels per node face to keep the kernel busy.
+NodeSpacing node_spacing_for(double sigma, double texel_size);
+
+}  // namespace onmesh
