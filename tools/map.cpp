@@ -1,14 +1,138 @@
+// onmesh map: which texel lies where on the surface, as an image with a channel per property.
+#include <algorithm>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
 #include "command.h"
+#include "inputs.h"
 
 namespace onmesh::tools {
+namespace {
 
-int run_map(const std::vector<std::string>& arguments) {
+Command make_command() {
   Command command;
   command.name = "map";
-  command.synopsis = "MESH";
-  command.summary = "texel map";
+  command.synopsis = "MESH (-t TEXTURE | --resolution WxH) -o MAP.exr [options]";
+  command.summary =
+      "Writes where on the surface every texel lies, as EXR with 32-bit float channels:\n"
+      "  face          triangle of the file, from 0; -1 = none\n"
+      "  b0 b1 b2      barycentric coordinates of the texel's centre in it\n"
+      "  x y z         its position, mesh units\n"
+      "  area          surface area of the whole texel, mesh units squared\n"
+      "  chart         number of its chart, from 0; -1 = none\n"
+      "  claims        positions that share the texel; the first is described\n"
+      "  coverage      0 = no chart, 1 = touched (padding), 2 = covered\n"
+      "Where no position claims the texel, the others are 0.";
+  command.examples =
+      "  onmesh map cube.obj -t cube.png -o map.exr\n"
+      "  onmesh map cube.obj --resolution 1024x1024 -o map.exr --json\n";
+  auto add = command.options.add_options();
+  add("mesh", text());
+  add("output,o", text(), "the EXR to write");
+  add_atlas_options(command.options);
+  add("json", flag(), "statistics as JSON on stdout");
+  add("quiet", flag(), "no summary");
+  command.positional.add("mesh", 1);
+  return command;
+}
+
+// In the order in which readers hand the channels out: x y z first, then by the alphabet.
+enum Channel { kX, kY, kZ, kArea, kB0, kB1, kB2, kChart, kClaims, kCoverage, kFace, kChannels };
+const std::vector<std::string> kNames = {"x",  "y",     "z",      "area",     "b0",  "b1",
+                                         "b2", "chart", "claims", "coverage", "face"};
+
+Image draw(const TriangleMesh& mesh, const TexelMap& map, const std::vector<Index>& file_face) {
+  Image image = make_image(map.width, map.height, kChannels);
+  image.channel_names = kNames;
+  for (Index i = 0; i < map.coverage.size(); ++i) {
+    float* const texel = image.texel(i);
+    texel[kFace] = texel[kChart] = -1;
+    texel[kCoverage] = float(map.coverage[i]);
+  }
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    for (Index c = map.face_offsets[f]; c < map.face_offsets[f + 1]; ++c) {
+      float* const texel = image.texel(map.texel(map.claims[c]));
+      if (texel[kClaims]++ > 0) continue;
+      const Vec3 b = map.barycentric(f, map.claims[c]);
+      const Vec3 p = mesh.position({f, b});
+      texel[kFace] = float(file_face[f]);
+      texel[kChart] = float(map.chart_of_face[f]);
+      texel[kArea] = float(map.texel_area[f]);
+      for (int k = 0; k < 3; ++k) {
+        texel[kB0 + k] = float(b[k]);
+        texel[kX + k] = float(p[k]);
+      }
+    }
+  }
+  return image;
+}
+
+// Cleaning turns faces over; barycentric coordinates are those of the file's corners.
+void restore_corner_order(const InputMesh& input, TriangleMesh& mesh) {
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    const auto& before = input.welded.faces[input.cleaning.kept[f]];
+    if (input.welded.positions[before[1]] == mesh.positions[mesh.faces[f][1]]) continue;
+    std::swap(mesh.faces[f][1], mesh.faces[f][2]);
+    std::swap(mesh.face_uvs[f][1], mesh.face_uvs[f][2]);
+  }
+}
+
+}  // namespace
+
+int run_map(const std::vector<std::string>& arguments) {
+  const Command command = make_command();
   po::variables_map values;
   if (!parse(command, arguments, values)) return 0;
+  const std::string path = argument_of(command, values, "mesh");
+  const std::string output = text_of(values, "output");
+  std::string extension = output.substr(std::min(output.rfind('.'), output.size()));
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  if (extension != ".exr")
+    throw UsageError("--output: " + output + " must end in .exr, only EXR names its channels");
+  check_writable_image(output, make_image(1, 1, kChannels));
+  wrap_of(values);
+
+  InputMesh input = read_input_mesh(path);
+  warn(input.warnings);
+  check_interrupted();
+  Atlas atlas = read_atlas(values, input.cleaned);
+  atlas.image = {};
+  restore_corner_order(input, input.cleaned);
+  check_interrupted();
+  const TexelMap map = naming(
+      path, [&] { return make_texel_map(input.cleaned, atlas.width, atlas.height, atlas.map); });
+  if (map.claims.empty()) throw InputError(path + ": no texel is covered; has the mesh UVs?");
+  if (input.welded.faces.size() > (1U << 24))
+    warn(output + ": face numbers beyond 16,777,216 are rounded, the channels are 32-bit float");
+  check_interrupted();
+  write_image(output, draw(input.cleaned, map, input.cleaning.kept));
+
+  const auto count = [&](Coverage c) {
+    return std::uint64_t(std::count(map.coverage.begin(), map.coverage.end(), c));
+  };
+  const std::uint64_t covered = count(Coverage::covered), touched = count(Coverage::touched);
+  const std::uint64_t overlapped = map.overlapped().size();
+  if (flag_of(values, "json")) {
+    nlohmann::json json = new_report("map");
+    json["mesh"] = path;
+    json["output"] = output;
+    json["texture"] = atlas.texture.empty() ? nlohmann::json() : nlohmann::json(atlas.texture);
+    json["width"] = map.width;
+    json["height"] = map.height;
+    json["charts"] = map.charts;
+    json["claims"] = map.claims.size();
+    json["covered"] = covered;
+    json["touched"] = touched;
+    json["overlapped"] = overlapped;
+    json["texel_size"] = map.median_texel_size();
+    json["channels"] = kNames;
+    print_report(std::move(json));
+  } else if (!flag_of(values, "quiet")) {
+    std::cerr << output << ": " << map.width << " x " << map.height << ", " << format_count(covered)
+              << " texels covered in " << format_count(map.charts) << " charts, "
+              << format_count(touched) << " touched, " << format_count(overlapped)
+              << " shared, texel size " << format_number(map.median_texel_size()) << '\n';
+  }
   return 0;
 }
 

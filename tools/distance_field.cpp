@@ -1,0 +1,223 @@
+#include "distance_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "onmesh/projection.h"
+#include "onmesh/samples.h"
+
+namespace onmesh::tools {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// Longer than any shortest path: one passes each face at most once.
+double longest_path(const NodeMesh& nodes) {
+  double sum = 0;
+  for (const auto& l : nodes.lengths) sum += std::max({l[0], l[1], l[2]});
+  return sum;
+}
+
+Vec3 uv_barycentric(const std::array<Vec2, 3>& c, const Vec2& p) {
+  const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
+  const double area = cross(c[1] - c[0], c[2] - c[0]);
+  const double b1 = cross(p - c[0], c[2] - c[0]) / area;
+  const double b2 = cross(c[1] - c[0], p - c[0]) / area;
+  return {1 - b1 - b2, b1, b2};
+}
+
+Image empty_texture(const TexelMap& map) {
+  Image image = make_image(map.width, map.height, 1);
+  std::fill(image.pixels.begin(), image.pixels.end(), float(kNaN));
+  return image;
+}
+
+void take_least(Image& image, Index texel, double distance) {
+  float& value = image.texel(texel)[0];
+  if (!(value <= float(distance))) value = float(distance);  // NaN is replaced
+}
+
+}  // namespace
+
+DistanceSource source_at_vertex(const InputMesh& input, std::int64_t vertex) {
+  const std::size_t count = input.as_read.positions.size();
+  const std::string name = "--vertex: " + std::to_string(vertex);
+  if (vertex < 0 || std::uint64_t(vertex) >= count)
+    throw UsageError(name + ": " + input.path + " has vertices 0 to " + std::to_string(count - 1));
+  const Vec3& position = input.as_read.positions[std::size_t(vertex)];
+  // Welding merges what is equal, so the position tells which vertex it became.
+  const TriangleMesh& mesh = input.cleaned;
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      if (mesh.positions[mesh.faces[f][k]] == position)
+        return {{f, Vec3::Unit(k)}, mesh.faces[f][k], 0};
+    }
+  }
+  throw UsageError(name + ": no face of " + input.path + " that is part of the surface uses it");
+}
+
+DistanceSource source_at_uv(const TriangleMesh& mesh, const Vec2& uv) {
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    if (!mesh.has_uvs(f)) continue;
+    const auto c = mesh.corner_uvs(f);
+    const Vec2 low = c[0].cwiseMin(c[1]).cwiseMin(c[2]), high = c[0].cwiseMax(c[1]).cwiseMax(c[2]);
+    constexpr double kRounding = 1e-9;
+    const Vec2 first = (low - uv).array() - kRounding, last = (high - uv).array() + kRounding;
+    if (!((last - first).maxCoeff() < 20000)) continue;
+    for (double y = std::ceil(first.y()); y <= last.y(); ++y) {
+      for (double x = std::ceil(first.x()); x <= last.x(); ++x) {
+        Vec3 b = uv_barycentric(c, uv + Vec2(x, y));
+        if (!(b.minCoeff() >= -kRounding)) continue;  // also if the triangle has no area
+        b = b.cwiseMax(0);
+        return {{f, b / b.sum()}, kNone, 0};
+      }
+    }
+  }
+  throw UsageError("--uv: no UV triangle holds " + format_number(uv.x()) + "," +
+                   format_number(uv.y()));
+}
+
+DistanceSource source_at_point(const TriangleMesh& mesh, const Vec3& point) {
+  const SurfacePoint closest = Projection(mesh).closest(point);
+  return {closest, kNone, (mesh.position(closest) - point).norm()};
+}
+
+std::vector<Index> welded_vertices(const InputMesh& input) {
+  std::vector<Index> welded(input.cleaned.positions.size(), kNone);
+  for (Index f = 0; f < input.cleaned.faces.size(); ++f) {
+    const auto& corners = input.welded.faces[input.cleaning.kept[f]];
+    for (const Index v : input.cleaned.faces[f]) {
+      // The face may have been turned over.
+      for (const Index w : corners) {
+        if (input.welded.positions[w] == input.cleaned.positions[v]) welded[v] = w;
+      }
+    }
+  }
+  return welded;
+}
+
+void forget_beyond(double radius, std::vector<double>& distances) {
+  for (double& d : distances) {
+    if (!std::isfinite(d) || d > radius) d = kNaN;
+  }
+}
+
+std::vector<double> node_distances(const TriangleMesh& mesh, const NodeSurface& surface,
+                                   const DistanceSource& source, DistanceMethod method,
+                                   double radius) {
+  const NodeMesh& nodes = surface.nodes;
+  NodePoint start;
+  if (source.vertex != kNone) {
+    // The mesh's vertices are nodes with the same numbers.
+    start.face = nodes.node_faces[nodes.node_offsets[source.vertex]];
+    int k = 0;
+    while (nodes.faces[start.face][k] != source.vertex) ++k;
+    start.barycentric = Vec3::Unit(k);
+  } else {
+    start = surface.overlay.locate(source.point);
+  }
+  const auto backend = make_backend(method, mesh, nodes);
+  // A node of the source's face is up to an edge farther away than the source itself.
+  const double longest = nodes.longest_edge();
+  double reach = std::min(radius + longest, longest_path(nodes));
+  if (method == DistanceMethod::heat && reach < radius) {
+    // The heat method takes its time step from the reach, so that a bound far off would spoil it.
+    const auto march = node_distances(mesh, surface, source, DistanceMethod::unfold, radius);
+    reach = longest;
+    for (const double d : march) reach = std::isnan(d) ? reach : std::max(reach, d + longest);
+  }
+  const Patch patch = grow_patch(nodes, {start.face}, reach + backend->margin(reach, longest));
+  DistanceTable table;
+  backend->fill(patch, reach, table);
+  const std::vector<double> local = distances_from(patch, table, 0, start.barycentric);
+  std::vector<double> distances(nodes.nodes.size(), kNaN);
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    if (std::isfinite(local[i])) distances[patch.nodes[i]] = local[i];
+  }
+  return distances;
+}
+
+std::vector<double> exact_distances(const TriangleMesh& mesh, const DistanceSource& source,
+                                    double radius, const std::vector<SurfacePoint>& points) {
+  // Only what paths of this length can touch: the exact algorithm knows no radius.
+  std::vector<bool> keep(mesh.faces.size(), false);
+  for (const Index f : grow_patch(make_node_mesh(mesh), {source.point.face}, radius).faces)
+    keep[f] = true;
+  std::vector<Index> number(mesh.faces.size(), kNone);
+  Index count = 0;
+  for (Index f = 0; f < keep.size(); ++f) {
+    if (keep[f]) number[f] = count++;
+  }
+  std::vector<SurfacePoint> inside;
+  std::vector<std::size_t> which;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (number[points[i].face] == kNone) continue;
+    inside.push_back({number[points[i].face], points[i].barycentric});
+    which.push_back(i);
+  }
+  ExactGeodesics geodesics(extract_faces(mesh, keep));
+  const std::vector<double> found =
+      geodesics.distances({number[source.point.face], source.point.barycentric}, inside);
+  std::vector<double> distances(points.size(), kNaN);
+  for (std::size_t i = 0; i < which.size(); ++i) distances[which[i]] = found[i];
+  forget_beyond(radius, distances);
+  return distances;
+}
+
+Image distance_texture(const TexelMap& map, const NodeSurface& surface,
+                       const std::vector<double>& at_nodes, double radius) {
+  Image image = empty_texture(map);
+  const Samples samples = texel_samples(map, surface);
+  for (Index f = 0; f < surface.nodes.faces.size(); ++f) {
+    const auto& corners = surface.nodes.faces[f];
+    for (Index s = samples.face_offsets[f]; s < samples.face_offsets[f + 1]; ++s) {
+      const Sample& sample = samples.samples[s];
+      const Vec3 b(1.0 - sample.b1 - sample.b2, sample.b1, sample.b2);
+      double squared = -barycentric_variance(surface.nodes.lengths[f], b);
+      for (int k = 0; k < 3; ++k) {
+        if (b[k] != 0) squared += b[k] * at_nodes[corners[k]] * at_nodes[corners[k]];
+      }
+      const double d = std::sqrt(std::max(squared, 0.0));
+      if (!std::isnan(squared) && d <= radius) take_least(image, sample.texel, d);
+    }
+  }
+  return image;
+}
+
+Image exact_distance_texture(const TriangleMesh& mesh, const TexelMap& map,
+                             const DistanceSource& source, double radius) {
+  Image image = empty_texture(map);
+  std::vector<SurfacePoint> points;
+  points.reserve(map.claims.size());
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    for (Index c = map.face_offsets[f]; c < map.face_offsets[f + 1]; ++c)
+      points.push_back({f, map.barycentric(f, map.claims[c])});
+  }
+  const std::vector<double> distances = exact_distances(mesh, source, radius, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!std::isnan(distances[i])) take_least(image, map.texel(map.claims[i]), distances[i]);
+  }
+  return image;
+}
+
+DistanceError distance_error(const std::vector<double>& exact, const std::vector<double>& other) {
+  DistanceError result;
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    if (std::isnan(exact[i])) continue;
+    if (std::isnan(other[i]))
+      ++result.missed;
+    else
+      errors.push_back(std::abs(exact[i] - other[i]));
+  }
+  result.points = errors.size();
+  if (errors.empty()) return result;
+  std::sort(errors.begin(), errors.end());
+  for (const double e : errors) result.mean += e / double(errors.size());
+  result.p99 = errors[std::size_t(std::ceil(0.99 * double(errors.size()))) - 1];
+  result.max = errors.back();
+  return result;
+}
+
+}  // namespace onmesh::tools

@@ -1,0 +1,58 @@
+// Distances from one point of a surface, with any back end, wherever they are wanted.
+#pragma once
+
+#include <vector>
+
+#include "inputs.h"
+#include "onmesh/distance.h"
+#include "onmesh/refine.h"
+
+namespace onmesh::tools {
+
+/// Where distances start.
+struct DistanceSource {
+  SurfacePoint point;
+  Index vertex = kNone;    ///< of the cleaned mesh, if the source is one
+  double off_surface = 0;  ///< how far the point that was asked for lies from it
+};
+
+/// Vertex of the file, from 0. \throw UsageError if there is none or no face is left around it
+DistanceSource source_at_vertex(const InputMesh& input, std::int64_t vertex);
+/// The first face whose UV triangle, moved by whole tiles, holds the UV. \throw UsageError if none
+DistanceSource source_at_uv(const TriangleMesh& mesh, const Vec2& uv);
+/// The closest point of the surface.
+DistanceSource source_at_point(const TriangleMesh& mesh, const Vec3& point);
+
+/// For each vertex of the cleaned mesh its number in the welded one.
+std::vector<Index> welded_vertices(const InputMesh& input);
+
+/// Distance (mesh units) per node, right up to the radius (infinity = everywhere). Beyond it may be
+/// NaN, as is where no way leads.
+std::vector<double> node_distances(const TriangleMesh& mesh, const NodeSurface& surface,
+                                   const DistanceSource& source, DistanceMethod method,
+                                   double radius);
+
+/// Distances beyond the radius become NaN.
+void forget_beyond(double radius, std::vector<double>& distances);
+
+/// Exact distances at any points of the mesh; NaN beyond the radius and where no way leads.
+std::vector<double> exact_distances(const TriangleMesh& mesh, const DistanceSource& source,
+                                    double radius, const std::vector<SurfacePoint>& points);
+
+/// Distance per texel (the least one where several places share it), interpolated from the nodes;
+/// NaN where no chart covers it or a corner's distance is not known.
+Image distance_texture(const TexelMap& map, const NodeSurface& surface,
+                       const std::vector<double>& at_nodes, double radius);
+/// The same, exact.
+Image exact_distance_texture(const TriangleMesh& mesh, const TexelMap& map,
+                             const DistanceSource& source, double radius);
+
+/// Absolute differences where the exact distance is known.
+struct DistanceError {
+  std::size_t points = 0;  ///< compared
+  std::size_t missed = 0;  ///< where the exact distance is known and the other is not
+  double mean = 0, p99 = 0, max = 0;
+};
+DistanceError distance_error(const std::vector<double>& exact, const std::vector<double>& other);
+
+}  // namespace onmesh::tools
