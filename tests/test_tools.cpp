@@ -65,7 +65,8 @@ TEST_CASE("the program without a command, or with an unknown one, exits with 2",
 TEST_CASE("wrong usage exits with 2 and names the option", "[tools]") {
   const Workspace space;
   space.file("m.obj", kSquare);
-  check_refused(space, "info", 2, "MESH is missing");
+  for (const std::string name : {"info", "refine", "distance"})
+    check_refused(space, name, 2, "MESH is missing; usage: onmesh " + name);
   check_refused(space, "info m.obj --strickt", 2, "did you mean --strict?");
   check_refused(space, "info m.obj extra", 2, "too many arguments");
   check_refused(space, "info m.obj --resolution 12", 2, "--resolution: '12'");
@@ -73,7 +74,7 @@ TEST_CASE("wrong usage exits with 2 and names the option", "[tools]") {
   check_refused(space, "info m.obj --resolution 4x4 --wrap mirror", 2, "--wrap: 'mirror'");
   check_refused(space, "map m.obj --resolution 4x4", 2, "--output is missing");
   check_refused(space, "map m.obj --resolution 4x4 -o m.png", 2, "must end in .exr");
-  check_refused(space, "map m.obj -o m.exr", 2, "no texture is named");
+  check_refused(space, "map m.obj -o m.exr", 2, "give one with -t, or give --resolution");
   check_refused(space, "compare a.png", 2, "B is missing");
   check_refused(space, "compare a.png b.png --fail nan", 2, "--fail: 'nan'");
   check_refused(space, "compare a.png b.png --seams", 2, "--seams needs --mesh");
@@ -147,12 +148,14 @@ TEST_CASE("wrong input exits with 3 and names the file", "[tools]") {
   // Three pages on one spine.
   space.must("make-mesh book -o book.obj -t book.png --size 16");
   for (const std::string name : {"empty.obj", "nan.obj", "index.obj", "short.ply"})
-    check_refused(space, "info " + name, 3, name + ": ");
-  check_refused(space, "info nan.obj", 3, "line 1");
+    check_refused(space, "info " + name, 3, name + ":");
+  check_refused(space, "refine nan.obj", 3, "nan.obj:1: coordinate is not finite");
   check_refused(space, "compare text.png good.png", 3, "text.png: ");
   check_refused(space, "map good.obj -t text.png -o m.exr", 3, "text.png: ");
   check_refused(space, "map bare.obj --resolution 8x8 -o m.exr", 3, "bare.obj: ");
   check_refused(space, "distance book.obj --vertex 0", 3, "book.obj: the mesh is not manifold");
+  check_refused(space, "refine book.obj", 3, "book.obj: the mesh is not manifold");
+  check_refused(space, "sample bare.obj -t good.png -o s.ply", 3, "bare.obj: ");
   check_refused(space, "filter good.obj -t text.png -o o.png", 3, "text.png: ");
   check_refused(space, "filter bare.obj -t good.png -o o.png", 3, "bare.obj: ");
   check_refused(space, "filter book.obj -o o.png", 3, "book.obj: ");

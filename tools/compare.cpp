@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "inputs.h"
+#include "texture_choice.h"
 
 namespace onmesh::tools {
 namespace {
@@ -27,6 +28,7 @@ Command make_command() {
   add("a", text());
   add("b", text());
   add("mesh", text(), "the mesh that wears the textures");
+  add("material", text(), "only the faces of this material; all = every face with UVs");
   add("wrap", text("repeat"), "what UVs outside [0,1] mean: repeat or clamp");
   add("fail", text(), "exit with 1 if the PSNR is below this many dB");
   add("seams", flag(), "insist on the seam errors: an error without --mesh");
@@ -47,6 +49,22 @@ Image read_other(const std::string& path, const std::string& first, const Image&
   return image;
 }
 
+// The faces that filter would have chosen for one of the textures: the other is its result.
+std::vector<bool> faces_wearing(const TriangleMesh& mesh, const std::string& a,
+                                const std::string& b, const std::optional<std::string>& material) {
+  try {
+    return choose_texture(mesh, a, material).faces;
+  } catch (const UsageError&) {
+    if (material) throw;
+  }
+  try {
+    return choose_texture(mesh, b, material).faces;
+  } catch (const UsageError&) {
+    throw UsageError("--mesh: none of its materials names " + a + " or " + b +
+                     "; choose the faces with --material NAME or --material all");
+  }
+}
+
 nlohmann::json to_json(const SeamError& s) {
   return {{"edges", s.edges}, {"length", s.length}, {"rms", s.rms}, {"max", s.max}};
 }
@@ -65,10 +83,10 @@ int run_compare(const std::vector<std::string>& arguments) {
   const std::string path_b = argument_of(command, values, "b");
   std::optional<double> least;
   if (has(values, "fail")) least = number_of(values, "fail", -1000, 1000);
-  for (const char* name : {"wrap", "seams"}) {
+  for (const std::string name : {"wrap", "seams", "material"}) {
     const bool given =
-        std::string(name) == "seams" ? flag_of(values, name) : !values[name].defaulted();
-    if (given && !has(values, "mesh")) throw UsageError(std::string("--") + name + " needs --mesh");
+        name == "seams" ? flag_of(values, name) : has(values, name) && !values[name].defaulted();
+    if (given && !has(values, "mesh")) throw UsageError("--" + name + " needs --mesh");
   }
   const Wrap wrap = wrap_of(values);
 
@@ -81,8 +99,10 @@ int run_compare(const std::vector<std::string>& arguments) {
     const InputMesh input = read_input_mesh(text_of(values, "mesh"));
     warn(input.warnings);
     check_interrupted();
+    const std::vector<bool> faces =
+        faces_wearing(input.cleaned, path_a, path_b, optional_text(values, "material"));
     naming(input.path, [&] {
-      const TexelMap map = make_texel_map(input.cleaned, a.width, a.height, {wrap, {}});
+      const TexelMap map = make_texel_map(input.cleaned, a.width, a.height, {wrap, faces});
       if (map.claims.empty())
         throw InputError("no texel is covered, so there is nothing to compare");
       result = difference(a, b, &map);

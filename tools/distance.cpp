@@ -50,6 +50,7 @@ Command make_command() {
   add("texture", text(), "EXR to write: a distance per texel; needs -t or --resolution");
   add("atlas,t", text(), "the texture whose texels --texture has");
   add("resolution", text(), "the size of --texture instead, such as 1024x1024");
+  add("material", text(), "only texels of this material's faces; all = every face with UVs");
   add("wrap", text("repeat"), "what UVs outside [0,1] mean: repeat or clamp");
   add("json", flag(), "statistics as JSON on stdout");
   add("quiet", flag(), "no summary");

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "inputs.h"
 #include "onmesh/filter.h"
 #include "onmesh/mesh_io.h"
 #include "texture_choice.h"
@@ -247,20 +248,13 @@ class Clock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
 };
 
-std::optional<std::string> optional_text(const po::variables_map& values, const std::string& name) {
-  return has(values, name) ? std::optional(text_of(values, name)) : std::nullopt;
-}
-
 }  // namespace
 
 int run_filter(const std::vector<std::string>& arguments) {
   const Command command = make_command();
   po::variables_map values;
   if (!parse(command, arguments, values)) return 0;
-  if (!has(values, "mesh")) {
-    throw UsageError("MESH is missing; usage: onmesh filter " + command.synopsis);
-  }
-  const std::string mesh_path = text_of(values, "mesh");
+  const std::string mesh_path = argument_of(command, values, "mesh");
   const bool dry_run = flag_of(values, "dry-run"), as_json = flag_of(values, "json");
   const bool quiet = flag_of(values, "quiet");
   const std::string output = dry_run && !has(values, "output") ? "" : text_of(values, "output");
@@ -292,7 +286,7 @@ int run_filter(const std::vector<std::string>& arguments) {
   out["dry_run"] = dry_run;
 
   if (dry_run) {
-    const FilterPlan plan = plan_filter(mesh, texture, options);
+    const FilterPlan plan = naming(mesh_path, [&] { return plan_filter(mesh, texture, options); });
     warnings.insert(warnings.end(), plan.warnings.begin(), plan.warnings.end());
     if (!quiet) warn(warnings);
     out["plan"] = plan_json(plan);
@@ -306,7 +300,8 @@ int run_filter(const std::vector<std::string>& arguments) {
   Image result;
   {
     ProgressBar bar(quiet);
-    result = filter(mesh, texture, options, &report, bar.callback());
+    result =
+        naming(mesh_path, [&] { return filter(mesh, texture, options, &report, bar.callback()); });
   }
   clock.stage("filter");
   check_interrupted();

@@ -313,6 +313,8 @@ int run_info(const std::vector<std::string>& arguments) {
   if (!parse(command, arguments, values)) return 0;
   const std::string path = argument_of(command, values, "mesh");
   wrap_of(values);
+  if (has(values, "material") && !has_atlas_option(values))
+    throw UsageError("--material needs -t or --resolution");
   const InputMesh input = read_input_mesh(path);
   check_interrupted();
   Findings findings;

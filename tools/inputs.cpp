@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "onmesh/mesh_io.h"
+#include "texture_choice.h"
 
 namespace onmesh::tools {
 namespace {
@@ -75,6 +76,7 @@ void add_atlas_options(po::options_description& options) {
   add("texture,t", text(),
       "a texture of the atlas (default: the one that the mesh's materials name)");
   add("resolution", text(), "size of the atlas instead of a texture, such as 1024x1024");
+  add("material", text(), "only the faces of this material; all = every face with UVs");
   add("wrap", text("repeat"), "what UVs outside [0,1] mean: repeat or clamp");
 }
 
@@ -86,27 +88,30 @@ Atlas read_atlas(const po::variables_map& values, const TriangleMesh& mesh,
                  const std::string& texture) {
   Atlas atlas;
   atlas.map.wrap = wrap_of(values);
+  const auto material = optional_text(values, "material");
   if (has(values, "resolution")) {
     if (has(values, texture)) throw UsageError("-t and --resolution exclude each other");
     parse_resolution(text_of(values, "resolution"), atlas);
+    if (material) atlas.map.faces = choose_texture(mesh, "", material).faces;
     return atlas;
   }
-  if (has(values, texture)) {
-    atlas.texture = text_of(values, texture);
-  } else {
-    const std::vector<std::string> names = named_textures(mesh);
-    if (names.empty())
-      throw UsageError("no texture is named by the mesh; give one with -t, or --resolution");
-    if (names.size() > 1)
-      throw UsageError("the mesh names " + std::to_string(names.size()) +
-                       " textures; choose one with -t, or give --resolution");
-    atlas.texture = names[0];
-    atlas.map.faces = faces_with_texture(mesh, names[0]);
+  TextureChoice choice;
+  try {
+    choice = choose_texture(mesh, optional_text(values, texture), material);
+  } catch (const UsageError& error) {
+    if (has(values, texture)) throw;
+    throw UsageError(std::string(error.what()) + ", or give --resolution");
   }
+  atlas.texture = choice.path.string();
+  atlas.map.faces = std::move(choice.faces);
   atlas.image = read_image(atlas.texture);
   atlas.width = atlas.image.width;
   atlas.height = atlas.image.height;
   return atlas;
+}
+
+std::optional<std::string> optional_text(const po::variables_map& values, const std::string& name) {
+  return has(values, name) ? std::optional(text_of(values, name)) : std::nullopt;
 }
 
 Wrap wrap_of(const po::variables_map& values) {

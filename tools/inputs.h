@@ -25,14 +25,15 @@ struct InputMesh {
 /// \throw FileError, InputError as read_mesh()
 InputMesh read_input_mesh(const std::string& path);
 
-/// Calls work(); an InputError that does not name the file gets its name in front.
+/// Calls work(); an InputError that names neither the file nor an option gets the file in front.
 template <class Work>
 auto naming(const std::string& path, Work work) {
   try {
     return work();
   } catch (const InputError& error) {
     const std::string message = error.what();
-    throw InputError(message.find(path) == std::string::npos ? path + ": " + message : message);
+    const bool named = message.rfind("--", 0) == 0 || message.find(path) != std::string::npos;
+    throw InputError(named ? message : path + ": " + message);
   }
 }
 
@@ -41,7 +42,7 @@ std::vector<std::string> named_textures(const TriangleMesh& mesh);
 /// For every face whether its material names this texture and it has UVs.
 std::vector<bool> faces_with_texture(const TriangleMesh& mesh, const std::string& texture);
 
-/// Adds --texture, --resolution and --wrap.
+/// Adds --texture, --resolution, --material and --wrap.
 void add_atlas_options(po::options_description& options);
 
 /// The size of the texture whose atlas is meant, and the faces that carry it.
@@ -53,11 +54,13 @@ struct Atlas {
 };
 
 bool has_atlas_option(const po::variables_map& values);
-/// --resolution WxH, or the size of --texture; without either that of the one texture that the
-/// mesh's materials name. \throw UsageError if both are given, or several textures could be meant
+/// --resolution WxH, or the size of --texture; without either that of the texture that the mesh's
+/// materials name. Faces are chosen as by filter: see choose_texture().
 /// \param texture the option's name where --texture is something else
+/// \throw UsageError if both are given, or several textures could be meant
 Atlas read_atlas(const po::variables_map& values, const TriangleMesh& mesh,
                  const std::string& texture = "texture");
+std::optional<std::string> optional_text(const po::variables_map& values, const std::string& name);
 /// The values of --wrap.
 Wrap wrap_of(const po::variables_map& values);
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "inputs.h"
 #include "onmesh/length.h"
 #include "onmesh/mesh_io.h"
 #include "onmesh/ply.h"
@@ -64,13 +65,15 @@ int run_refine(const std::vector<std::string>& arguments) {
   const Command command = make_command();
   po::variables_map values;
   if (!parse(command, arguments, values)) return 0;
-  const std::string path = text_of(values, "mesh");
+  const std::string path = argument_of(command, values, "mesh");
+  if (has(values, "output")) check_writable_file(text_of(values, "output"));
   RefineOptions options;
   options.growth = number_of(values, "growth", 0, 100);
   options.min_angle_degrees = number_of(values, "min-angle", 0, 30);
 
   std::vector<std::string> warnings;
-  const TriangleMesh mesh = clean(weld(read_mesh(path, &warnings)));
+  const TriangleMesh read = weld(read_mesh(path, &warnings));
+  const TriangleMesh mesh = naming(path, [&] { return clean(read); });
   warn(warnings);
   options.spacing = length_of(values, "spacing", mesh.diagonal());
   if (has(values, "finest")) {
@@ -81,7 +84,8 @@ int run_refine(const std::vector<std::string>& arguments) {
   }
   check_interrupted();
   RefineReport report;
-  const NodeSurface surface = refine(mesh, make_half_edge_mesh(mesh), options, &report);
+  const NodeSurface surface =
+      naming(path, [&] { return refine(mesh, make_half_edge_mesh(mesh), options, &report); });
   check_interrupted();
   if (has(values, "output")) write_nodes(text_of(values, "output"), mesh, surface.nodes);
 

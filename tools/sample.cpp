@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "command.h"
+#include "inputs.h"
 #include "onmesh/image.h"
 #include "onmesh/length.h"
 #include "onmesh/mesh_io.h"
@@ -155,6 +156,7 @@ int run_sample(const std::vector<std::string>& arguments) {
   if (!parse(command, arguments, values)) return 0;
   const std::string path = argument_of(command, values, "mesh");
   const std::string output = text_of(values, "output");
+  check_writable_file(output);
   refuse_together(values, "spacing", "r-coef");
   refuse_together(values, "texture", "resolution");
   if (has(values, "resolution")) parse_resolution(text_of(values, "resolution"));
@@ -166,14 +168,14 @@ int run_sample(const std::vector<std::string>& arguments) {
   const TriangleMesh mesh = weld(read_mesh(path, &warnings));
   if (!quiet) warn(warnings);
   check_interrupted();
-  options.spacing = resolve_spacing(values, mesh);
+  options.spacing = naming(path, [&] { return resolve_spacing(values, mesh); });
   check_interrupted();
 
   const auto start = std::chrono::steady_clock::now();
   std::vector<SurfacePoint> samples;
   {
     ProgressBar bar(quiet);
-    samples = poisson_samples(mesh, options, bar.callback());
+    samples = naming(path, [&] { return poisson_samples(mesh, options, bar.callback()); });
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const double least = least_sample_distance(mesh, samples, options.spacing);
