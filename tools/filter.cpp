@@ -37,8 +37,7 @@ Command make_command() {
   add("kind", text("bilateral"), "bilateral (keeps edges) or gaussian (blurs)");
   add("sigma-spatial", text("4tx"), "length: width of the filter on the surface");
   add("sigma-range", text("0.1"),
-      "bilateral: colour difference that halves a weight, about; values are 0 to 1, or write "
-      "25/255");
+      "bilateral: width of the filter in colour differences; values run from 0 to 1 (or 25/255)");
   add("radius", text(),
       "length: how far samples count (default: 2.5 sigma bilateral, 3 sigma gaussian)");
   add("distance", text("auto"), "how distances are computed: auto, unfold, heat or exact");

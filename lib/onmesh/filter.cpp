@@ -268,7 +268,6 @@ Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& o
   work.targets = &targets;
   work.colours = gather_colours(texture, bilateral, packed);
   work.kernel = {plan.sigma_spatial, plan.radius, bilateral ? options.sigma_range : 0};
-  work.texel_size = plan.texel_size;
   if (options.distance == DistanceMethod::exact) refuse_long_runs(work);
   {
     Results results(texture, setup.map, sources, targets, image);

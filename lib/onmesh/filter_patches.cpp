@@ -22,12 +22,9 @@ double thread_seconds() {
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
-/// Targets per patch. A core about three radii wide keeps the halo, which is computed again by each
-/// neighbour, small beside it; large kernels get smaller cores, so that all threads stay busy.
-double target_weight(const PatchWork& work, double targets) {
-  const double texels = 3 * work.kernel.radius / work.texel_size;
-  return std::clamp(texels * texels, 1024.0, std::max(1024.0, targets / 64));
-}
+/// Targets per patch. Large cores waste less: nodes between patches and halos are computed again by
+/// each of them. But all threads need patches to the end, and tables should stay in the cache.
+double target_weight(double targets) { return std::clamp(targets / 128, 2048.0, 8192.0); }
 
 class PatchFilter {
  public:
@@ -75,12 +72,12 @@ class PatchFilter {
     for (const Index f : core) {
       for (const double length : work_.nodes->lengths[f]) edge = std::max(edge, length);
     }
-    edge = std::min(1.25 * edge, longest_edge_);
+    edge = std::min(1.05 * edge, longest_edge_);
     for (;;) {
       reach = work_.kernel.radius * std::sqrt(1 + 1e-5) + 2 * edge;
       Patch patch = grow_patch(*work_.nodes, core, reach + work_.backend->margin(reach, edge));
       if (patch.longest_edge <= edge || edge >= longest_edge_) return patch;
-      edge = std::min(std::max(patch.longest_edge, 1.25 * edge), longest_edge_);
+      edge = std::min(1.02 * patch.longest_edge, longest_edge_);
     }
   }
 
@@ -103,7 +100,7 @@ PatchCounts filter_patches(const PatchWork& work,
   }
   const auto targets = double(work.targets->samples.size());
   const std::vector<std::vector<Index>> cores =
-      partition_faces(nodes, weights, target_weight(work, targets));
+      partition_faces(nodes, weights, target_weight(targets));
 
   struct ThreadState {
     PatchFilter filter;

@@ -17,7 +17,6 @@ struct PatchWork {
   const Samples* targets = nullptr;
   Colours colours;
   KernelOptions kernel;
-  double texel_size = 0;
 };
 
 struct PatchCounts {

@@ -165,6 +165,9 @@ KernelWork gather(const KernelInput& input, const KernelOptions& options, std::v
   work.distance_scale = static_cast<float>(-scale);
   // On regular grids many pairs tie at the radius; rounding must not decide about them.
   work.limit = static_cast<float>(-scale * options.radius * options.radius * (1 + 1e-5));
+  const double reach =
+      options.radius * std::sqrt(1 + 1e-5) + 2 * input.patch->longest_edge * (1 + 1e-6);
+  work.reach_squared = static_cast<float>(reach * reach);
   if (options.sigma_range > 0) {
     work.range_channels = input.colours.range_channels;
     work.colour_scale = static_cast<float>(std::sqrt(half_log2e) / options.sigma_range);

@@ -32,6 +32,8 @@ struct KernelWork {
   float distance_scale = 0;  ///< from squared distance to exponent, negative
   float colour_scale = 1;    ///< 1 for the Gaussian filter
   float limit = 0;           ///< exponent at the radius
+  /// Squared distance that the corners of two faces with a pair within the radius never exceed.
+  float reach_squared = 0;
 
   std::vector<Face> faces;
   /// Per sample kFixed values, then its scaled colour: b1, b2, variance + log2 area, log2 area,
