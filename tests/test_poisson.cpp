@@ -306,6 +306,18 @@ TEST_CASE("the cube of the paper gets about 90000 samples", "[poisson]") {
   CHECK(samples.size() < 91500);
 }
 
+TEST_CASE("no pair among many samples is closer than the spacing, however acute the faces",
+          "[poisson]") {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform(-0.004, 0.004);
+  TriangleMesh ragged = plane(120, 120, 1, 1);
+  for (Vec3& p : ragged.positions) p += Vec3(uniform(random), uniform(random), uniform(random));
+  for (const std::uint64_t seed : {2, 4, 10}) {  // rare: one seed in three
+    const auto samples = sample(ragged, 0.004, seed);
+    CHECK(least_sample_distance(ragged, samples, 0.004) >= 0.004 * (1 - 1e-12));
+  }
+}
+
 TEST_CASE("equal seeds give equal samples, different seeds different ones", "[poisson]") {
   const TriangleMesh mesh = sphere(3);
   const auto first = sample(mesh, 0.1, 5);

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -103,8 +102,7 @@ Size texture_size(const po::variables_map& values, const TriangleMesh& mesh) {
 
 double resolve_spacing(const po::variables_map& values, const TriangleMesh& mesh) {
   if (has(values, "r-coef"))
-    return number_of(values, "r-coef", std::numeric_limits<double>::min(), 1e9) *
-           mesh.mean_edge_length();
+    return number_of(values, "r-coef", 1e-9, 1e9) * mesh.mean_edge_length();
   Length length;
   if (has(values, "spacing")) {
     length = parse_length("--spacing", text_of(values, "spacing"));

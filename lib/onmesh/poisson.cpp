@@ -104,7 +104,8 @@ class Sampler {
   }
   bool meets(const Near& near, const Cell& cell) const {
     const Vec2 d = (cell.low - near.foot).cwiseMax(near.foot - cell.high).cwiseMax(0.0);
-    return d.squaredNorm() + near.squared_height < squared_spacing_;
+    // A little more, since rounding differs between the frame and space.
+    return d.squaredNorm() + near.squared_height < squared_spacing_ * (1 + 1e-6);
   }
   bool covers(const Near& near, const Cell& cell) const {
     const Vec2 d = (near.foot - cell.low).cwiseMax(cell.high - near.foot);
@@ -294,15 +295,20 @@ bool Sampler::settle_unjoined(const FaceFrame& frame, const Cell& cell, std::siz
 // it is of the finest size, at the point inside the face that is closest to its centre.
 bool Sampler::throw_dart(const FaceFrame& frame, const Cell& cell, bool finest, std::size_t first) {
   SurfacePoint dart{frame.face, Vec3::Zero()};
+  const auto keep = [&] {  // as a near sample of the cell, on whose face it lies
+    fresh_.push_back(make_near(frame, Index(samples_.size() - 1), true));
+    return true;
+  };
   if (finest) {
+    // This point may lie just outside the cell, where near_ is not complete.
     const auto corners = mesh_.corners(frame.face);
     dart.barycentric = closest_barycentric(corners, frame.position(cell.centre()));
-  } else {
-    const double u = random_.uniform(), v = random_.uniform();
-    const Vec2 place = cell.low + Vec2(u, v).cwiseProduct(cell.high - cell.low);
-    dart.barycentric = frame.barycentric(place);
-    if (dart.barycentric.minCoeff() < 0) return false;
+    return throw_dart(dart) && keep();
   }
+  const double u = random_.uniform(), v = random_.uniform();
+  const Vec2 place = cell.low + Vec2(u, v).cwiseProduct(cell.high - cell.low);
+  dart.barycentric = frame.barycentric(place);
+  if (dart.barycentric.minCoeff() < 0) return false;
   const Vec3 p = position_on(mesh_, dart);
   for (std::size_t i = first; i < near_.size(); ++i)
     if (near_[i].joined && close(positions_[near_[i].sample], p)) return false;
@@ -311,8 +317,7 @@ bool Sampler::throw_dart(const FaceFrame& frame, const Cell& cell, bool finest, 
     if (close(positions_[near_[i].sample], p) && ball_.found(samples_[near_[i].sample].face))
       return false;
   add(dart, p);
-  fresh_.push_back(make_near(frame, Index(samples_.size() - 1), true));  // on the cell's own face
-  return true;
+  return keep();
 }
 
 // Adds the dart unless it conflicts with a sample.
