@@ -216,11 +216,12 @@ Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& o
   stages.begin("texel map");
   FilterSetup setup = set_up_filter(mesh, texture, options);
   const FilterPlan& plan = setup.plan;
-  report.sigma_spatial = plan.sigma_spatial;
-  report.radius = plan.radius;
-  report.node_spacing = plan.node_spacing;
-  report.sample_spacing = plan.sample_spacing;
-  report.texel_size = plan.texel_size;
+  const FilterPlan told = in_mesh_units(plan, setup.unit);
+  report.sigma_spatial = told.sigma_spatial;
+  report.radius = told.radius;
+  report.node_spacing = told.node_spacing;
+  report.sample_spacing = told.sample_spacing;
+  report.texel_size = told.texel_size;
   report.overlapped = plan.overlapped;
   report.warnings = plan.warnings;
   stages.end();

@@ -108,6 +108,16 @@ NodeSpacing node_spacing_for(double sigma, double texel_size) {
   return {smooth, std::min(smooth, finest)};
 }
 
+FilterPlan in_mesh_units(FilterPlan plan, double unit) {
+  for (double* length :
+       {&plan.sigma_spatial, &plan.radius, &plan.node_spacing, &plan.finest_spacing,
+        &plan.sample_spacing, &plan.texel_size, &plan.diagonal}) {
+    *length *= unit;
+  }
+  plan.surface_area *= unit * unit;
+  return plan;
+}
+
 FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
                           const FilterOptions& options) {
   check_options(mesh, options);
@@ -118,6 +128,8 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   FilterPlan& plan = setup.plan;
   std::vector<bool> faces = options.faces;
   setup.mesh = cleaned(mesh, faces, plan.warnings);
+  setup.unit = std::exp2(std::ceil(std::log2(std::max(setup.mesh.diagonal(), 1e-300))));
+  for (Vec3& p : setup.mesh.positions) p /= setup.unit;
   setup.map = make_texel_map(setup.mesh, texture.width, texture.height, {options.wrap, faces});
   require_claims(setup.mesh, setup.map, faces);
   const std::vector<Index> overlapped = setup.map.overlapped();
@@ -128,7 +140,8 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   plan.texel_size = setup.map.median_texel_size();
   plan.diagonal = setup.mesh.diagonal();
   const auto resolved = [&](const Length& length) {
-    return resolve(length, plan.texel_size, plan.diagonal);
+    const double value = resolve(length, plan.texel_size, plan.diagonal);
+    return length.unit == Length::Unit::mesh ? value / setup.unit : value;
   };
   plan.sigma_spatial = resolved(options.sigma_spatial);
   require_positive("--sigma-spatial", plan.sigma_spatial);
@@ -165,7 +178,8 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
 
 FilterPlan plan_filter(const TriangleMesh& mesh, const Image& texture,
                        const FilterOptions& options) {
-  return set_up_filter(mesh, texture, options).plan;
+  const FilterSetup setup = set_up_filter(mesh, texture, options);
+  return in_mesh_units(setup.plan, setup.unit);
 }
 
 }  // namespace onmesh

@@ -6,10 +6,16 @@
 namespace onmesh {
 
 struct FilterSetup {
-  TriangleMesh mesh;  ///< welded and clean
+  TriangleMesh mesh;  ///< welded and clean, in working units
   TexelMap map;
-  FilterPlan plan;
+  FilterPlan plan;  ///< in working units
+  /// Mesh units per working unit: the power of two that brings the mesh's diagonal near 1, so that
+  /// squared distances in float neither overflow nor vanish, whatever the mesh's unit.
+  double unit = 1;
 };
+
+/// The plan's lengths and areas in mesh units.
+FilterPlan in_mesh_units(FilterPlan plan, double unit);
 
 FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
                           const FilterOptions& options);
