@@ -29,7 +29,10 @@ double target_weight(double targets) { return std::clamp(targets / 128, 2048.0, 
 class PatchFilter {
  public:
   PatchFilter(const PatchWork& work, const std::function<void(Index, const float*)>& store)
-      : work_(work), store_(store), longest_edge_(work.nodes->longest_edge()) {}
+      : work_(work),
+        store_(store),
+        longest_edge_(work.nodes->longest_edge()),
+        kernel_(work.kernel) {}
 
   /// Filter the targets of the core faces.
   void run(const std::vector<Index>& core, PatchCounts& counts) {
@@ -46,8 +49,8 @@ class PatchFilter {
     }
     work_.backend->fill(patch, reach, table_);
     const double filled = thread_seconds();
-    const KernelCounts kernel = filter_patch(
-        {&patch, &table_, work_.sources, work_.targets, work_.colours}, work_.kernel, values_);
+    const KernelCounts kernel =
+        kernel_.run({&patch, &table_, work_.sources, work_.targets, work_.colours}, values_);
     const float* values = values_.data();
     for (Index f = 0; f < patch.core_faces; ++f) {
       const Index begin = work_.targets->face_offsets[patch.faces[f]];
@@ -84,6 +87,7 @@ class PatchFilter {
   const PatchWork& work_;
   const std::function<void(Index, const float*)>& store_;
   const double longest_edge_;
+  Kernel kernel_;
   DistanceTable table_;
   std::vector<float> values_;
 };

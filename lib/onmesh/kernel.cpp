@@ -265,7 +265,7 @@ KernelCounts run_blocks(const KernelInput& input, const KernelWork& work, std::v
   return counts;
 }
 
-KernelCounts run(const KernelInput& input, const KernelWork& work, std::vector<float>& out) {
+KernelCounts run_patch(const KernelInput& input, const KernelWork& work, std::vector<float>& out) {
   const bool range = work.range_channels > 0;
   if (!range || work.range_channels == work.channels) {
     switch (work.channels) {
@@ -297,15 +297,24 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace onmesh {
-HWY_EXPORT(run);
+HWY_EXPORT(run_patch);
 HWY_EXPORT(target_name);
+
+Kernel::Kernel(const KernelOptions& options)
+    : options_(options), work_(std::make_unique<KernelWork>()) {}
+Kernel::~Kernel() = default;
+Kernel::Kernel(Kernel&&) noexcept = default;
+
+KernelCounts Kernel::run(const KernelInput& input, std::vector<float>& out) {
+  gather(input, options_, *work_, out);
+  KernelCounts counts = HWY_DYNAMIC_DISPATCH(run_patch)(input, *work_, out);
+  counts.without_sample += work_->slots - work_->targets.size();
+  return counts;
+}
 
 KernelCounts filter_patch(const KernelInput& input, const KernelOptions& options,
                           std::vector<float>& out) {
-  const KernelWork work = gather(input, options, out);
-  KernelCounts counts = HWY_DYNAMIC_DISPATCH(run)(input, work, out);
-  counts.without_sample += work.slots - work.targets.size();
-  return counts;
+  return Kernel(options).run(input, out);
 }
 
 const char* kernel_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "onmesh/distance.h"
 #include "onmesh/samples.h"
 
 namespace onmesh {
+
+struct KernelWork;  // kernel_gather.h
 
 struct KernelOptions {
   double sigma_spatial = 0;  ///< mesh units, > 0
@@ -38,14 +41,29 @@ struct KernelCounts {
   std::uint64_t without_sample = 0;  ///< targets that kept their own texel's values
 };
 
-/// Filter all targets in the patch's core faces.
-///
-/// Samples with a channel that is not finite (or beyond 1e15 in units of sigma_range) have no
-/// weight, and targets with such a texel keep their own values; so do targets whose weights sum to
-/// nothing. The relative error of a weight is below 4e-6. Two faces between whose corners a table
-/// entry is kUnreachable exchange nothing. \param out `channels` values per target, for core face
-/// 0's targets first, then core face 1's, ...
-///   in the order of `targets`
+/// Filters patches one after the other, keeping its buffers. One object per thread.
+class Kernel {
+ public:
+  explicit Kernel(const KernelOptions& options);
+  ~Kernel();
+  Kernel(Kernel&&) noexcept;
+
+  /// Filter all targets in the patch's core faces.
+  ///
+  /// Samples with a channel that is not finite (or beyond 1e15 in units of sigma_range) have no
+  /// weight, and targets with such a texel keep their own values; so do targets whose weights sum
+  /// to nothing. The relative error of a weight is below 4e-6. Two faces between whose corners a
+  /// table entry is kUnreachable exchange nothing. \param out `channels` values per target, for
+  /// core face 0's targets first, then core face 1's,
+  ///   ... in the order of `targets`
+  KernelCounts run(const KernelInput& input, std::vector<float>& out);
+
+ private:
+  KernelOptions options_;
+  std::unique_ptr<KernelWork> work_;
+};
+
+/// The same for a single patch.
 KernelCounts filter_patch(const KernelInput& input, const KernelOptions& options,
                           std::vector<float>& out);
 

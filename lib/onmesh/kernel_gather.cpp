@@ -31,6 +31,7 @@ void gather_samples(const KernelInput& input, double variance_scale, KernelWork&
     }
     count += sources.face_offsets[f + 1] - sources.face_offsets[f];
   }
+  work.faces.clear();
   work.records.resize(count * work.stride());
 
   float* record = work.records.data();
@@ -122,6 +123,8 @@ void gather_targets(const KernelInput& input, double variance_scale, KernelWork&
   }
   work.slots = first_slot.back();
   out.resize(work.slots * std::size_t(work.channels));
+  work.targets.clear();
+  work.target_colours.clear();
   work.targets.reserve(work.slots);
   work.target_colours.reserve(out.size());
 
@@ -153,12 +156,12 @@ void gather_targets(const KernelInput& input, double variance_scale, KernelWork&
 
 }  // namespace
 
-KernelWork gather(const KernelInput& input, const KernelOptions& options, std::vector<float>& out) {
+void gather(const KernelInput& input, const KernelOptions& options, KernelWork& work,
+            std::vector<float>& out) {
   assert(options.sigma_spatial > 0 && options.radius > 0 && options.sigma_range >= 0);
   assert(input.table->rows >= input.patch->core_nodes);
   assert(input.table->columns == input.patch->nodes.size());
 
-  KernelWork work;
   work.channels = input.colours.channels;
   const double half_log2e = 0.5 * std::numbers::log2e;
   const double scale = half_log2e / (options.sigma_spatial * options.sigma_spatial);
@@ -168,13 +171,14 @@ KernelWork gather(const KernelInput& input, const KernelOptions& options, std::v
   const double reach =
       options.radius * std::sqrt(1 + 1e-5) + 2 * input.patch->longest_edge * (1 + 1e-6);
   work.reach_squared = static_cast<float>(reach * reach);
+  work.range_channels = 0;
+  work.colour_scale = 1;
   if (options.sigma_range > 0) {
     work.range_channels = input.colours.range_channels;
     work.colour_scale = static_cast<float>(std::sqrt(half_log2e) / options.sigma_range);
   }
   gather_samples(input, scale, work);
   gather_targets(input, scale, work, out);
-  return work;
 }
 
 }  // namespace onmesh

@@ -49,7 +49,8 @@ struct KernelWork {
 };
 
 /// Gather samples of all faces of the patch and targets of its core. Values that targets keep are
-/// written to `out`, which is resized.
-KernelWork gather(const KernelInput& input, const KernelOptions& options, std::vector<float>& out);
+/// written to `out`, which is resized. Buffers of `work` are used again.
+void gather(const KernelInput& input, const KernelOptions& options, KernelWork& work,
+            std::vector<float>& out);
 
 }  // namespace onmesh
