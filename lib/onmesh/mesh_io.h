@@ -1,4 +1,4 @@
-// Reading meshes: OBJ + MTL, PLY, OFF and STL, validated. Writing OBJ.
+// Reading meshes: OBJ + MTL, PLY, OFF and STL, validated. Writing OBJ. (PLY: ply.h)
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,14 @@
 
 namespace onmesh {
 
-/// Read a mesh; the format follows the file's extension and, where they disagree, its content.
-/// Polygons are triangulated (ear clipping in the polygon's plane; corners keep their UVs). The
-/// result is as in the file: see weld() for meshes that arrive split at seams.
+/// Read a mesh; the format follows the file's content, and its extension where the content leaves
+/// that open. Polygons are triangulated (a fan where that gives no sliver, else by ear clipping in
+/// the polygon's plane; corners keep their UVs). The result is as in the file: see weld() for
+/// meshes that arrive split at seams. UVs that are not finite count as missing, with a warning.
 /// \param warnings if given, receives one line per thing that was ignored or repaired
 /// \throw FileError if the file cannot be opened or read
-/// \throw InputError naming file, line (or element) and what is wrong: bad number, NaN, index out
-/// of
-///   range, truncated data, no faces
+/// \throw InputError naming file, line (or element) and what is wrong: bad number, coordinate
+///   that is not finite, index out of range, truncated data, no faces
 TriangleMesh read_mesh(const std::filesystem::path& path,
                        std::vector<std::string>* warnings = nullptr);
 

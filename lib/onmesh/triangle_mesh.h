@@ -60,11 +60,15 @@ struct CleanReport {
 };
 
 /// Make the mesh fit for a half-edge structure where that loses nothing: drop faces with repeated
-/// vertices and exact duplicates, then wind every component consistently (the winding of the
+/// vertices, exact duplicates and fins, then wind every component consistently (the winding of the
 /// majority of its area wins). UVs move with their corners. Faces without area stay: they join
-/// their neighbours. Positions and UVs that no face uses any more are dropped. \throw InputError if
-/// a component cannot be oriented (Moebius strip); edges with three or more
-///   faces are passed over here and refused by HalfEdgeMesh.
+/// their neighbours. Positions and UVs that no face uses any more are dropped.
+///
+/// A fin is a single triangle with its own back side that hangs on a closed surface by one edge and
+/// is shorter than 1 % of the mesh's diagonal: what is left of a pocket in a scan once its vertices
+/// are welded. Both sides go, else the edge would have three faces.
+/// \throw InputError if a component cannot be oriented (Moebius strip). Edges with three or more
+///   faces are passed over here and refused by make_half_edge_mesh().
 TriangleMesh clean(const TriangleMesh& mesh, CleanReport* report = nullptr);
 
 /// The faces for which keep[face] is set, with unused positions and UVs dropped.
