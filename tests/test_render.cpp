@@ -305,16 +305,3 @@ TEST_CASE("options outside their domain are refused", "[render]") {
   colour.scalar = &scalar;
   CHECK_THROWS_AS(render(mesh, colour, {}), InputError);
 }
-
-TEST_CASE("pictures are put beside each other unchanged", "[render]") {
-  Image a = make_image(2, 3, 3), b = make_image(4, 2, 3);
-  a.pixels[0] = 0.5F;
-  b.pixels[0] = 0.25F;
-  const Image both = beside({a, b}, 5);
-  CHECK(both.width == 2 + 5 + 4);
-  CHECK(both.height == 3);
-  CHECK(pixel(both, 0, 0)[0] == 0.5);
-  CHECK(pixel(both, 7, 0)[0] == 0.25);
-  CHECK(pixel(both, 3, 1) == Vec3(1, 1, 1));
-  CHECK(pixel(both, 8, 2) == Vec3(1, 1, 1));
-}

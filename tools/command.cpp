@@ -107,6 +107,9 @@ po::typed_value<std::string>* text() { return po::value<std::string>()->value_na
 po::typed_value<std::string>* text(const std::string& default_value) {
   return text()->default_value(default_value);
 }
+po::typed_value<std::vector<std::string>>* texts() {
+  return po::value<std::vector<std::string>>()->value_name("X")->composing();
+}
 po::typed_value<bool>* flag() { return po::bool_switch(); }
 
 bool parse(const Command& command, const std::vector<std::string>& arguments,
@@ -170,6 +173,15 @@ std::string argument_of(const Command& command, const po::variables_map& values,
   std::string upper = name;
   for (char& c : upper) c = char(std::toupper(static_cast<unsigned char>(c)));
   throw UsageError(upper + " is missing; usage: onmesh " + command.name + " " + command.synopsis);
+}
+
+std::vector<std::string> texts_of(const po::variables_map& values, const std::string& name) {
+  if (!has(values, name)) return {};
+  const auto list = values[name].as<std::vector<std::string>>();
+  for (const std::string& value : list) {
+    if (value.empty()) throw UsageError(dashed(name) + ": is empty");
+  }
+  return list;
 }
 
 bool flag_of(const po::variables_map& values, const std::string& name) {

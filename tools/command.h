@@ -48,6 +48,8 @@ struct Command {
 /// messages are alike. The second form has a default, which --help shows.
 po::typed_value<std::string>* text();
 po::typed_value<std::string>* text(const std::string& default_value);
+/// An option that may be given several times.
+po::typed_value<std::vector<std::string>>* texts();
 /// An option without a value.
 po::typed_value<bool>* flag();
 
@@ -64,6 +66,8 @@ std::string text_of(const po::variables_map& values, const std::string& name);
 /// The same for a positional argument; the message shows the usage.
 std::string argument_of(const Command& command, const po::variables_map& values,
                         const std::string& name);
+/// All values of a texts() option, none if it was not given. \throw UsageError if one is empty
+std::vector<std::string> texts_of(const po::variables_map& values, const std::string& name);
 bool flag_of(const po::variables_map& values, const std::string& name);
 /// \throw UsageError naming the option unless its value is a number from [low, high] (not NaN)
 double number_of(const po::variables_map& values, const std::string& name, double low, double high);

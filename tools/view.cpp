@@ -4,8 +4,10 @@
 #include <memory>
 
 #include "command.h"
+#include "inputs.h"
 #include "onmesh/image.h"
 #include "onmesh/mesh_io.h"
+#include "onmesh/picture.h"
 #include "onmesh/render.h"
 #include "ply_column.h"
 
@@ -15,25 +17,30 @@ namespace {
 Command make_command() {
   Command command;
   command.name = "view";
-  command.synopsis = "MESH -o PICTURE [-t TEXTURE [--after TEXTURE]] [options]";
+  command.synopsis = "(MESH | --flat) -o PICTURE [-t TEXTURE [--after TEXTURE]...] [options]";
   command.summary =
       "Renders the mesh with a texture, or with the textures of its own materials without -t; "
       "with\n"
-      "--after a second picture beside it; or coloured by a scalar per vertex with isolines.";
+      "--after further pictures beside it; or coloured by a scalar per vertex with isolines. With\n"
+      "--flat the textures themselves are shown instead of the model.";
   command.examples =
       "  onmesh view cube.obj -t cube.png --after filtered.png -o picture.png\n"
+      "  onmesh view cube.obj -t cube.png --after a.png --after b.png --size 400 -o three.png\n"
+      "  onmesh view --flat -t cube.png --after filtered.png -o textures.png\n"
       "  onmesh view cube.obj --azimuth -30 --elevation 60 --no-light -o top.png\n"
       "  onmesh view cube.obj --distance-ply distance.ply --isolines 0.1 -o distance.png\n";
   auto add = command.options.add_options();
   add("mesh", text());
   add("output,o", text(), "the picture to write");
   add("texture,t", text(), "texture for all faces (default: what the mesh's materials name)");
-  add("after", text(), "another texture, shown beside the first");
+  add("after", texts(), "another texture, shown beside the first; may be given several times");
+  add("flat", flag(), "show the textures themselves, without a mesh");
   add("distance-ply", text(),
       "PLY with a scalar per vertex of the mesh, as onmesh distance writes it");
   add("property", text("distance"), "which property of that PLY");
   add("isolines", text(), "step of the isolines (default: a twentieth of the range; 0 = none)");
-  add("size", text("800"), "pixels per side of each picture, 1 to 16384");
+  add("wrap", text("repeat"), "what UVs outside [0,1] mean: repeat or clamp");
+  add("size", text("800"), "pixels per side of each picture (flat: the longer side), 1 to 16384");
   add("azimuth", text("35"), "degrees around the up axis");
   add("elevation", text("25"), "degrees above the horizon, -90 to 90");
   add("zoom", text("1"), "1 = the model fills the picture");
@@ -66,15 +73,35 @@ RenderOptions render_options(const po::variables_map& values) {
   options.light = !flag_of(values, "no-light");
   options.wireframe = flag_of(values, "wireframe");
   options.up = axis(text_of(values, "up"));
+  options.wrap = wrap_of(values);
   return options;
 }
 
-void refuse_together(const po::variables_map& values, const std::string& a, const std::string& b) {
-  const auto given = [&](const std::string& name) {
-    return has(values, name) && !values[name].defaulted() &&
-           (name != "face-materials" || flag_of(values, name));
-  };
-  if (given(a) && given(b)) throw UsageError("--" + a + " and --" + b + " exclude each other");
+bool given(const po::variables_map& values, const std::string& name) {
+  return has(values, name) && !values[name].defaulted();
+}
+
+void refuse_together(const po::variables_map& values, const std::string& a,
+                     const std::vector<std::string>& others) {
+  for (const std::string& b : others) {
+    if (given(values, a) && given(values, b))
+      throw UsageError("--" + a + " and --" + b + " exclude each other");
+  }
+}
+
+void check_combination(const po::variables_map& values) {
+  refuse_together(values, "distance-ply", {"texture", "after", "face-materials", "wrap"});
+  refuse_together(values, "face-materials", {"texture", "after", "wrap"});
+  refuse_together(values, "flat",
+                  {"distance-ply", "face-materials", "wrap", "azimuth", "elevation", "zoom", "up",
+                   "no-light", "wireframe"});
+  if (flag_of(values, "flat") && has(values, "mesh"))
+    throw UsageError("--flat shows textures without a mesh; leave out '" + text_of(values, "mesh") +
+                     "' or --flat");
+  for (const char* name : {"property", "isolines"}) {
+    if (given(values, name) && !has(values, "distance-ply"))
+      throw UsageError(std::string("--") + name + " needs --distance-ply");
+  }
 }
 
 // The scalar may have a value per vertex of the file or per vertex once they are welded.
@@ -119,32 +146,28 @@ class MaterialTextures {
   std::map<std::string, std::unique_ptr<Image>> images_;
 };
 
-}  // namespace
-
-int run_view(const std::vector<std::string>& arguments) {
-  const Command command = make_command();
-  po::variables_map values;
-  if (!parse(command, arguments, values)) return 0;
-  const std::string output = text_of(values, "output");
-  const RenderOptions options = render_options(values);
-  for (const char* other : {"texture", "after", "face-materials"})
-    refuse_together(values, "distance-ply", other);
-  for (const char* other : {"texture", "after"}) refuse_together(values, "face-materials", other);
-  for (const char* name : {"property", "isolines"}) {
-    if (has(values, name) && !values[name].defaulted() && !has(values, "distance-ply"))
-      throw UsageError(std::string("--") + name + " needs --distance-ply");
+std::vector<Image> flat_pictures(const po::variables_map& values, const RenderOptions& options) {
+  std::vector<std::string> paths = texts_of(values, "after");
+  paths.insert(paths.begin(), text_of(values, "texture"));
+  std::vector<Image> pictures;
+  for (const std::string& path : paths) {
+    pictures.push_back(flat_picture(read_image(path), options.width, options.supersampling));
+    check_interrupted();
   }
-  check_writable_image(output, make_image(1, 1, 3));
+  return pictures;
+}
 
+std::vector<Image> model_pictures(const std::string& path, const po::variables_map& values,
+                                  const RenderOptions& options) {
   std::vector<std::string> warnings;
-  TriangleMesh mesh = read_mesh(argument_of(command, values, "mesh"), &warnings);
+  TriangleMesh mesh = read_mesh(path, &warnings);
   warn(warnings);
   check_interrupted();
   std::vector<double> scalar;
   if (has(values, "distance-ply")) {
-    const std::string path = text_of(values, "distance-ply");
-    scalar = read_ply_column(path, text_of(values, "property"));
-    fit_to_scalar(mesh, scalar.size(), path);
+    const std::string ply = text_of(values, "distance-ply");
+    scalar = read_ply_column(ply, text_of(values, "property"));
+    fit_to_scalar(mesh, scalar.size(), ply);
   } else {
     mesh = weld(mesh);  // shading is smooth across seams, so that a seam in sight is the texture's
   }
@@ -168,16 +191,33 @@ int run_view(const std::vector<std::string>& arguments) {
     colour.material_textures = textures.pointers;
     pictures.push_back(render(mesh, colour, options));
   }
-  check_interrupted();
-  if (has(values, "after")) {
-    const Image after = read_image(text_of(values, "after"));
-    colour.texture = &after;
+  for (const std::string& after : texts_of(values, "after")) {
+    check_interrupted();
+    const Image texture = read_image(after);
+    colour.texture = &texture;
     pictures.push_back(render(mesh, colour, options));
   }
+  return pictures;
+}
+
+}  // namespace
+
+int run_view(const std::vector<std::string>& arguments) {
+  const Command command = make_command();
+  po::variables_map values;
+  if (!parse(command, arguments, values)) return 0;
+  const std::string output = text_of(values, "output");
+  const RenderOptions options = render_options(values);
+  check_combination(values);
+  check_writable_image(output, make_image(1, 1, 3));
+  const std::vector<Image> pictures =
+      flag_of(values, "flat")
+          ? flat_pictures(values, options)
+          : model_pictures(argument_of(command, values, "mesh"), values, options);
   check_interrupted();
   ImageWriteOptions eight_bits;
   eight_bits.bits = 8;
-  warnings.clear();
+  std::vector<std::string> warnings;
   write_image(output, beside(pictures), eight_bits, &warnings);
   warn(warnings);
   return 0;

@@ -11,6 +11,7 @@
 
 #include "onmesh/compare.h"
 #include "onmesh/error.h"
+#include "onmesh/picture.h"
 #include "onmesh/raster.h"
 
 namespace onmesh {
@@ -198,14 +199,8 @@ class Scene {
     const Vec2 at = b[0] * uv[0] + b[1] * uv[1] + b[2] * uv[2];
     if (!at.allFinite()) return kGrey;
     buffer.resize(std::size_t(texture->channels));
-    bilinear(*texture, Wrap::repeat, at, buffer.data());
-    Vec3 colour;
-    for (int c = 0; c < 3; ++c) {
-      const float value = buffer[texture->channels >= 3 ? std::size_t(c) : 0];
-      if (!std::isfinite(value)) return {1, 0, 1};
-      colour[c] = std::clamp(double(value), 0.0, 1.0);
-    }
-    return colour;
+    bilinear(*texture, options_.wrap, at, buffer.data());
+    return display_colour(buffer.data(), texture->channels);
   }
 
   Vec3 scalar_colour(Index f, const Vec3& b, double px, double py) const {
@@ -271,29 +266,6 @@ Vec3 colour_map(double t) {
 Image render(const TriangleMesh& mesh, const RenderColour& colour, const RenderOptions& options) {
   check(mesh, colour, options);
   return Scene(mesh, colour, options).draw_picture();
-}
-
-Image beside(const std::vector<Image>& pictures, int gap) {
-  int width = 0, height = 0, channels = 3;
-  for (const Image& picture : pictures) {
-    if (&picture == &pictures.front()) channels = picture.channels;
-    if (picture.channels != channels)
-      throw InputError("pictures to be put beside each other differ in channels");
-    width += picture.width + (&picture == &pictures.front() ? 0 : gap);
-    height = std::max(height, picture.height);
-  }
-  Image sheet = make_image(width, height, channels);
-  std::fill(sheet.pixels.begin(), sheet.pixels.end(), 1.0F);
-  int x = 0;
-  for (const Image& picture : pictures) {
-    for (int y = 0; y < picture.height; ++y) {
-      std::copy_n(picture.texel(Index(y) * Index(picture.width)),
-                  std::size_t(picture.width) * std::size_t(channels),
-                  sheet.texel(Index(y) * Index(width) + Index(x)));
-    }
-    x += picture.width + gap;
-  }
-  return sheet;
 }
 
 }  // namespace onmesh

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "onmesh/image.h"
+#include "onmesh/texel_map.h"
 #include "onmesh/triangle_mesh.h"
 
 namespace onmesh {
@@ -16,6 +17,7 @@ struct RenderOptions {
   int supersampling = 2;          ///< samples per pixel and direction, [1, 8]
   bool light = true;              ///< soft headlight shading; off shows texture values as they are
   bool wireframe = false;         ///< draw the mesh's edges
+  Wrap wrap = Wrap::repeat;       ///< what UVs outside [0,1] mean
   Vec3 background{1, 1, 1};
   Vec3 up{0, 1, 0};
 };
@@ -31,7 +33,7 @@ struct RenderColour {
   std::vector<const Image*> material_textures;  ///< per material of the mesh; null = grey
 };
 
-/// Perspective z-buffer rendering with bilinear look-ups (UVs repeat) and supersampling; 3
+/// Perspective z-buffer rendering with bilinear look-ups and supersampling; 3
 /// channels. Both sides of faces are drawn. Faces without UVs are grey, texture values are clamped
 /// to [0,1], those that are not numbers are magenta. The camera looks at the model from outside,
 /// framed to fit. Adjacent faces leave neither gaps nor double pixels; equal input gives equal
@@ -39,10 +41,6 @@ struct RenderColour {
 /// a
 ///   position is not finite, or sizes do not match
 Image render(const TriangleMesh& mesh, const RenderColour& colour, const RenderOptions& options);
-
-/// Pictures beside each other on white, top-aligned, `gap` pixels apart.
-/// \throw InputError unless all have the same number of channels
-Image beside(const std::vector<Image>& pictures, int gap = 8);
 
 /// The colour map for scalars: even steps of `t` in [0,1] look like even steps of lightness.
 Vec3 colour_map(double t);
