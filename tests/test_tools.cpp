@@ -89,6 +89,8 @@ TEST_CASE("wrong usage exits with 2 and names the option", "[tools]") {
   check_refused(space, "distance m.obj --vertex 0 --radius 3tx", 2, "give one with -t");
   check_refused(space, "distance m.obj --vertex 0 --distance exact --compare exact", 2,
                 "--compare exact");
+  check_refused(space, "distance m.obj --vertex 0 --spacing 1e-9", 2, "--spacing: 1e-09");
+  check_refused(space, "distance m.obj --vertex 0 --texture d.png", 2, "must end in .exr");
   check_refused(space, "make-mesh dodo -o d.obj", 2, "unknown shape 'dodo'");
 }
 

@@ -46,10 +46,10 @@ Command make_command() {
   add("compare", text(), "exact: print the error at all nodes within the radius");
   add("output,o", text(), "PLY to write: the welded mesh with a distance per vertex");
   add("nodes-ply", text(), "PLY to write: the nodes with a distance each");
-  // -t belongs to --texture elsewhere, so the short form takes the atlas's texture here too.
-  add("texture", text(), "EXR to write: a distance per texel; needs -t or --resolution");
-  add("atlas,t", text(), "the texture whose texels --texture has");
-  add("resolution", text(), "the size of --texture instead, such as 1024x1024");
+  // As with the other commands, -t is the texture that is there; --texture is the result.
+  add("texture", text(), "EXR or TIFF to write: a distance per texel of the atlas");
+  add("atlas,t", text(), "the texture whose texels are meant (default: what the materials name)");
+  add("resolution", text(), "size of the atlas instead, such as 1024x1024");
   add("material", text(), "only texels of this material's faces; all = every face with UVs");
   add("wrap", text("repeat"), "what UVs outside [0,1] mean: repeat or clamp");
   add("json", flag(), "statistics as JSON on stdout");
@@ -113,7 +113,14 @@ Request read_request(const po::variables_map& values) {
   for (const char* name : {"output", "nodes-ply"}) {
     if (has(values, name)) check_writable_file(text_of(values, name));
   }
-  if (has(values, "texture")) check_writable_image(text_of(values, "texture"), make_image(1, 1, 1));
+  if (has(values, "texture")) {
+    const std::string path = text_of(values, "texture");
+    const std::string extension = lower_extension(path);
+    if (extension != ".exr" && extension != ".tif" && extension != ".tiff")
+      throw UsageError("--texture: " + path +
+                       " must end in .exr or .tif, other formats hold no distances");
+    check_writable_image(path, make_image(1, 1, 1));
+  }
   wrap_of(values);
   return request;
 }
@@ -128,14 +135,6 @@ DistanceSource find_source(const po::variables_map& values, const InputMesh& inp
   }
   const auto p = parse_numbers(values, "point", 3);
   return naming(input.path, [&] { return source_at_point(input.cleaned, {p[0], p[1], p[2]}); });
-}
-
-double default_spacing(const TriangleMesh& mesh, double radius) {
-  const double spacing = std::min({mesh.mean_edge_length(), mesh.diagonal() / 100, radius / 5});
-  // Not more than about two million nodes unless someone asks for them.
-  double area = 0;
-  for (Index f = 0; f < mesh.faces.size(); ++f) area += mesh.face_area(f);
-  return std::max(spacing, std::sqrt(area / 2e6));
 }
 
 void write_vertices(const std::string& path, const InputMesh& input,
@@ -247,6 +246,7 @@ int run_distance(const std::vector<std::string>& arguments) {
   if (request.needs_nodes) {
     RefineOptions options;
     options.spacing = spacing;
+    check_spacing(mesh, spacing);
     surface = naming(path, [&] { return refine(mesh, half_edges, options); });
     seconds["refine"] = watch.lap();
     check_interrupted();

@@ -33,12 +33,36 @@ Image empty_texture(const TexelMap& map) {
   return image;
 }
 
+// Nodes of a refinement to this spacing, about: their triangles are nearly equilateral.
+double estimated_nodes(const TriangleMesh& mesh, double spacing) {
+  double area = 0;
+  for (Index f = 0; f < mesh.faces.size(); ++f) area += mesh.face_area(f);
+  return double(mesh.positions.size()) + area / (0.87 * spacing * spacing);
+}
+
 void take_least(Image& image, Index texel, double distance) {
   float& value = image.texel(texel)[0];
   if (!(value <= float(distance))) value = float(distance);  // NaN is replaced
 }
 
 }  // namespace
+
+double default_spacing(const TriangleMesh& mesh, double radius) {
+  double spacing = std::min({mesh.mean_edge_length(), mesh.diagonal() / 100, radius / 5});
+  // Not more than about two million nodes unless someone asks for them.
+  const double least = mesh.diagonal() * 1e-9;
+  spacing = std::max(spacing, least);
+  const double added = estimated_nodes(mesh, spacing) - double(mesh.positions.size());
+  return added > 2e6 ? spacing * std::sqrt(added / 2e6) : spacing;
+}
+
+void check_spacing(const TriangleMesh& mesh, double spacing) {
+  constexpr double kMost = 1e7;  // some gigabytes
+  if (estimated_nodes(mesh, spacing) - double(mesh.positions.size()) < kMost) return;
+  throw UsageError("--spacing: " + format_number(spacing) + " would take about " +
+                   format_number(estimated_nodes(mesh, spacing)) +
+                   " nodes; at most 10,000,000 are made");
+}
 
 DistanceSource source_at_vertex(const InputMesh& input, std::int64_t vertex) {
   const std::size_t count = input.as_read.positions.size();

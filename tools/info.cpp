@@ -147,6 +147,10 @@ void find_problems(const InputMesh& input, Findings& findings) {
         " faces are fins, pairs back to back that stick out from the surface: filtering leaves "
         "them out, so remove them if they are not meant to be there");
   }
+  if (findings.textures.size() > 1) {
+    findings.advice.push_back("the materials name " + std::to_string(findings.textures.size()) +
+                              " textures: filter them one at a time, chosen with -t or --material");
+  }
   for (const TextureFacts& facts : findings.textures) {
     if (!facts.trouble.empty()) findings.advice.push_back("texture " + facts.trouble);
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
@@ -131,6 +132,12 @@ void check_writable_file(const std::string& path) {
     throw FileError(path + ": cannot write here: it is a folder");
   if (!fs::exists(target, error) && ::access(folder.c_str(), W_OK | X_OK) != 0)
     throw FileError(path + ": cannot write in the folder: " + std::strerror(errno));
+}
+
+std::string lower_extension(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
 }
 
 std::string format_number(double value) {

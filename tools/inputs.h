@@ -67,6 +67,9 @@ Wrap wrap_of(const po::variables_map& values);
 /// \throw FileError if a file cannot be written there later
 void check_writable_file(const std::string& path);
 
+/// ".exr", also for "A.EXR".
+std::string lower_extension(const std::string& path);
+
 /// "%.6g", the way numbers are printed for people.
 std::string format_number(double value);
 

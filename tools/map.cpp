@@ -85,9 +85,7 @@ int run_map(const std::vector<std::string>& arguments) {
   if (!parse(command, arguments, values)) return 0;
   const std::string path = argument_of(command, values, "mesh");
   const std::string output = text_of(values, "output");
-  std::string extension = output.substr(std::min(output.rfind('.'), output.size()));
-  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-  if (extension != ".exr")
+  if (lower_extension(output) != ".exr")
     throw UsageError("--output: " + output + " must end in .exr, only EXR names its channels");
   check_writable_image(output, make_image(1, 1, kChannels));
   wrap_of(values);
