@@ -41,6 +41,7 @@ Command make_command() {
   add("isolines", text(), "step of the isolines (default: a twentieth of the range; 0 = none)");
   add("wrap", text("repeat"), "what UVs outside [0,1] mean: repeat or clamp");
   add("size", text("800"), "pixels per side of each picture (flat: the longer side), 1 to 16384");
+  add("height", text(), "pixels, if pictures of the model are not to be square");
   add("azimuth", text("35"), "degrees around the up axis");
   add("elevation", text("25"), "degrees above the horizon, -90 to 90");
   add("zoom", text("1"), "1 = the model fills the picture");
@@ -66,6 +67,7 @@ Vec3 axis(const std::string& name) {
 RenderOptions render_options(const po::variables_map& values) {
   RenderOptions options;
   options.width = options.height = int(integer_of(values, "size", 1, 16384));
+  if (has(values, "height")) options.height = int(integer_of(values, "height", 1, 16384));
   options.azimuth_degrees = number_of(values, "azimuth", -1e6, 1e6);
   options.elevation_degrees = number_of(values, "elevation", -90, 90);
   options.zoom = number_of(values, "zoom", 1e-3, 1000);
@@ -93,8 +95,8 @@ void check_combination(const po::variables_map& values) {
   refuse_together(values, "distance-ply", {"texture", "after", "face-materials", "wrap"});
   refuse_together(values, "face-materials", {"texture", "after", "wrap"});
   refuse_together(values, "flat",
-                  {"distance-ply", "face-materials", "wrap", "azimuth", "elevation", "zoom", "up",
-                   "no-light", "wireframe"});
+                  {"distance-ply", "face-materials", "wrap", "height", "azimuth", "elevation",
+                   "zoom", "up", "no-light", "wireframe"});
   if (flag_of(values, "flat") && has(values, "mesh"))
     throw UsageError("--flat shows textures without a mesh; leave out '" + text_of(values, "mesh") +
                      "' or --flat");
