@@ -36,7 +36,7 @@ constexpr double kTolerance = 1e-3;
 constexpr double kGridCell = 3.2;
 
 constexpr double kQuantile = 0.02;  // share of texels that may be smaller than the disc
-constexpr double kMaxPerTexel = 6;
+constexpr double kMaxPerTexel = 16;
 
 // Random numbers with the same bits everywhere: splitmix64 (Steele, Lea & Flood 2014).
 class Random {

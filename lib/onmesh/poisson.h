@@ -40,7 +40,7 @@ double least_sample_distance(const TriangleMesh& mesh, const std::vector<Surface
 /// Spacing for poisson_samples() at which texels are hit: in a maximal set every disc whose radius
 /// is the spacing holds a sample, so the spacing is the radius of the disc inscribed in a texel on
 /// the surface (half a texel where texels are square). Texels differ in size: the radius taken is
-/// the one that 98% of the claimed texels reach, but not less than gives 6 samples per texel on
+/// the one that 98% of the claimed texels reach, but not less than gives 16 samples per texel on
 /// average, so that a few tiny texels don't make millions of samples. Where the second bound does
 /// not bite, at least 98% of the texels that lie wholly inside a chart get a sample; on uniform
 /// charts all of them do, with about 2.8 samples per texel.
