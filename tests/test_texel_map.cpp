@@ -5,6 +5,7 @@
 
 #include "atlas_meshes.h"
 #include "onmesh/error.h"
+#include "onmesh/shapes.h"
 #include "onmesh/texel_map.h"
 
 using namespace onmesh;
@@ -423,4 +424,16 @@ TEST_CASE("real atlases are covered once per chart", "[texel_map][data]") {
     for (Index f = 0; f < spider.faces.size(); ++f)
       if (map.texel_area[f] == 0) REQUIRE(map.face_offsets[f] == map.face_offsets[f + 1]);
   }
+}
+
+TEST_CASE("a UV beyond the image falls on the repeated or on the nearest texel", "[texel_map]") {
+  const TriangleMesh mesh = make_plane(1, 1);
+  const TexelMap repeated = make_texel_map(mesh, 10, 5);
+  const TexelMap clamped = make_texel_map(mesh, 10, 5, {Wrap::clamp, {}});
+  for (const TexelMap* map : {&repeated, &clamped}) {
+    CHECK(map->texel_at({0.25, 0.9}) == 2);
+    CHECK(map->texel_at({0.25, 0.1}) == 42);
+  }
+  CHECK(repeated.texel_at({1.25, -0.1}) == 2);
+  CHECK(clamped.texel_at({1.25, -0.1}) == 49);
 }

@@ -166,6 +166,20 @@ TEST_CASE("sample writes points of the surface that keep their distance", "[tool
   CHECK(content_of(space / "s.ply") != first);
 }
 
+TEST_CASE("sample hits every texel of a uniform atlas and counts them", "[tools][sample]") {
+  const Workspace space;
+  space.must("make-mesh plane -o m.obj -t m.png --size 32");
+  const auto report = nlohmann::json::parse(space.must("sample m.obj -o s.ply --json").out);
+  CHECK(report["texels"]["covered"] == 32 * 32);
+  CHECK(report["texels"]["hit"] == 32 * 32);
+  const auto few =
+      nlohmann::json::parse(space.must("sample m.obj -t m.png -o s.ply --spacing 0.2 --json").out);
+  CHECK(few["texels"]["hit"] == few["samples"]);
+  CHECK(
+      nlohmann::json::parse(space.must("sample m.obj -o s.ply --spacing 0.2 --json").out)["texels"]
+          .is_null());
+}
+
 TEST_CASE("a filter and its samples are measured by the commands that follow", "[tools][filter]") {
   const Workspace space;
   space.must("make-mesh noisy-cube -o m.obj -t m.png --size 96");

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <optional>
 #include <sstream>
 
 #include "command.h"
 #include "inputs.h"
-#include "onmesh/image.h"
 #include "onmesh/length.h"
 #include "onmesh/mesh_io.h"
 #include "onmesh/ply.h"
@@ -24,95 +23,81 @@ Command make_command() {
   command.name = "sample";
   command.synopsis = "MESH -o SAMPLES.ply [--spacing H | --r-coef C] [options]";
   command.summary =
-      "Writes Poisson-disk samples of the surface: random points no two of which are closer than "
-      "the\n"
-      "spacing, so many that no more fit. Sides of a thin sheet don't count as close. Without a "
-      "spacing,\n"
-      "it follows from the texels (of the mesh's own texture, unless -t or --resolution says which)"
-      ".\n"
-      "The PLY has x y z, the face's normal nx ny nz, u v where the mesh has them, and the number "
-      "of\n"
-      "the face in the mesh, counted from 0 after polygons are triangulated.";
+      "Writes Poisson-disk samples of the surface: random points no two of which are closer than\n"
+      "the spacing, so many that no more fit. Sides of a thin sheet don't count as close. Without "
+      "a\n"
+      "spacing, it follows from the texels (of the mesh's own texture, unless -t or --resolution\n"
+      "says which). The PLY has x y z, the face's normal nx ny nz, u v where the mesh has them, "
+      "and\n"
+      "the number of the face in the mesh, counted from 0 after polygons are triangulated.";
   command.examples =
       "  onmesh sample cube.obj -o samples.ply\n"
       "  onmesh sample cube.obj -o samples.ply --r-coef 0.006 --seed 7\n"
       "  onmesh sample scan.ply -o samples.ply --spacing 0.5%\n"
       "  onmesh sample cube.obj -o samples.ply --spacing 2tx --resolution 1024x1024 --json\n";
+  command.options.add_options()("mesh", text());
+  command.options.add_options()("output,o", text(), "the PLY to write");
+  add_atlas_options(command.options);
   auto add = command.options.add_options();
-  add("mesh", text());
-  add("output,o", text(), "the PLY to write");
   add("spacing", text(), "least distance: mesh units, 2tx (texels) or 1% (of the diagonal)");
   add("r-coef", text(), "the same as a multiple of the mean edge length");
   add("seed", text("1"), "another seed gives other samples");
-  add("texture,t", text(), "the texture whose texels count");
-  add("resolution", text(), "WxH: count texels of a texture of this size");
   add("json", flag(), "print the report as JSON");
   add("quiet,q", flag(), "print nothing but errors and JSON");
   command.positional.add("mesh", 1);
   return command;
 }
 
-void refuse_together(const po::variables_map& values, const std::string& a, const std::string& b) {
-  if (has(values, a) && has(values, b))
-    throw UsageError("--" + a + " and --" + b + " exclude each other");
-}
-
-struct Size {
-  int width = 0, height = 0;
+// What to sample, and the texels that the samples are to hit, if there are any.
+struct Plan {
+  PoissonOptions options;
+  std::optional<TexelMap> map;
 };
 
-Size parse_resolution(const std::string& text) {
-  const std::size_t x = text.find('x');
-  Size size;
-  for (int* side : {&size.width, &size.height}) {
-    const bool first = side == &size.width;
-    const std::string digits = x == std::string::npos ? ""
-                               : first                ? text.substr(0, x)
-                                                      : text.substr(x + 1);
-    if (digits.empty() || digits.size() > 5 ||
-        digits.find_first_not_of("0123456789") != std::string::npos)
-      throw UsageError("--resolution: '" + text + "' is not of the form 1024x512");
-    *side = std::stoi(digits);
-    if (*side < 1 || *side > 32768)
-      throw UsageError("--resolution: '" + text + "' is not within 1x1 and 32768x32768");
+Plan make_plan(const po::variables_map& values, const TriangleMesh& mesh) {
+  Plan plan;
+  plan.options.seed = std::uint64_t(integer_of(values, "seed", 0, INT64_MAX));
+  std::optional<Length> length;
+  if (has(values, "spacing")) length = parse_length("--spacing", text_of(values, "spacing"));
+  const bool by_texels = length ? length->unit == Length::Unit::texel : !has(values, "r-coef");
+  if (by_texels || has_atlas_option(values) || has(values, "material")) {
+    const Atlas atlas = read_atlas(values, mesh);
+    plan.options.faces = atlas.map.faces;
+    plan.map = make_texel_map(mesh, atlas.width, atlas.height, atlas.map);
+    if (plan.map->claims.empty()) {
+      throw InputError(mesh.uvs.empty() ? "the mesh has no UVs, so there are no texels to hit"
+                                        : "no texel lies on a face with area");
+    }
   }
-  return size;
-}
-
-// Of the texture given, or of the only one that the mesh's faces use.
-Size texture_size(const po::variables_map& values, const TriangleMesh& mesh) {
-  if (has(values, "resolution")) return parse_resolution(text_of(values, "resolution"));
-  std::set<std::string> textures;
-  if (has(values, "texture")) {
-    textures = {text_of(values, "texture")};
+  if (length) {
+    const double texel_size = plan.map ? plan.map->median_texel_size() : 0;
+    plan.options.spacing = resolve(*length, texel_size, mesh.diagonal());
+  } else if (has(values, "r-coef")) {
+    plan.options.spacing = number_of(values, "r-coef", 1e-9, 1e9) * mesh.mean_edge_length();
   } else {
-    for (const Index m : mesh.face_materials)
-      if (m != kNone && !mesh.materials[m].texture.empty())
-        textures.insert(mesh.materials[m].texture);
+    plan.options.spacing = default_poisson_spacing(mesh, *plan.map);
   }
-  if (textures.size() != 1)
-    throw UsageError(
-        "the mesh names " +
-        (textures.empty() ? "no texture" : std::to_string(textures.size()) + " textures") +
-        " to take the size of texels from: give --texture or --resolution, or a "
-        "--spacing in other units, or --r-coef");
-  const Image image = read_image(*textures.begin());
-  return {image.width, image.height};
+  return plan;
 }
 
-double resolve_spacing(const po::variables_map& values, const TriangleMesh& mesh) {
-  if (has(values, "r-coef"))
-    return number_of(values, "r-coef", 1e-9, 1e9) * mesh.mean_edge_length();
-  Length length;
-  if (has(values, "spacing")) {
-    length = parse_length("--spacing", text_of(values, "spacing"));
-    if (length.unit != Length::Unit::texel) return resolve(length, 0, mesh.diagonal());
+// How many of the covered texels have a sample in their square.
+struct Hits {
+  std::uint64_t hit = 0, covered = 0;
+};
+
+Hits count_hits(const TriangleMesh& mesh, const TexelMap& map,
+                const std::vector<SurfacePoint>& samples) {
+  std::vector<bool> is_hit(map.coverage.size(), false);
+  for (const SurfacePoint& s : samples) {
+    if (map.chart_of_face[s.face] != kNone) is_hit[map.texel_at(mesh.uv(s))] = true;
   }
-  const Size size = texture_size(values, mesh);
-  const TexelMap map = make_texel_map(mesh, size.width, size.height);
-  if (map.claims.empty()) throw InputError("no texel lies on the surface: the mesh has no UVs");
-  return has(values, "spacing") ? resolve(length, map.median_texel_size(), 0)
-                                : default_poisson_spacing(mesh, map);
+  Hits hits;
+  for (std::size_t t = 0; t < is_hit.size(); ++t) {
+    if (map.coverage[t] != Coverage::covered) continue;
+    ++hits.covered;
+    hits.hit += is_hit[t];
+  }
+  return hits;
 }
 
 std::vector<PlyColumn> columns(const TriangleMesh& mesh, const std::vector<SurfacePoint>& samples) {
@@ -155,18 +140,16 @@ int run_sample(const std::vector<std::string>& arguments) {
   const std::string path = argument_of(command, values, "mesh");
   const std::string output = text_of(values, "output");
   check_writable_file(output);
-  refuse_together(values, "spacing", "r-coef");
-  refuse_together(values, "texture", "resolution");
-  if (has(values, "resolution")) parse_resolution(text_of(values, "resolution"));
-  PoissonOptions options;
-  options.seed = std::uint64_t(integer_of(values, "seed", 0, INT64_MAX));
+  if (has(values, "spacing") && has(values, "r-coef"))
+    throw UsageError("--spacing and --r-coef exclude each other");
   const bool quiet = flag_of(values, "quiet");
 
   std::vector<std::string> warnings;
   const TriangleMesh mesh = weld(read_mesh(path, &warnings));
   if (!quiet) warn(warnings);
   check_interrupted();
-  options.spacing = naming(path, [&] { return resolve_spacing(values, mesh); });
+  const Plan plan = naming(path, [&] { return make_plan(values, mesh); });
+  const PoissonOptions& options = plan.options;
   check_interrupted();
 
   const auto start = std::chrono::steady_clock::now();
@@ -183,7 +166,10 @@ int run_sample(const std::vector<std::string>& arguments) {
   write_ply(output, columns(mesh, samples), {}, {comment.str()});
 
   double area = 0;
-  for (Index f = 0; f < Index(mesh.faces.size()); ++f) area += mesh.face_area(f);
+  for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
+    if (options.faces.empty() || options.faces[f]) area += mesh.face_area(f);
+  }
+  const Hits hits = plan.map ? count_hits(mesh, *plan.map, samples) : Hits{};
   if (flag_of(values, "json")) {
     nlohmann::json report = new_report(command.name);
     report["mesh"] = path;
@@ -194,6 +180,8 @@ int run_sample(const std::vector<std::string>& arguments) {
     report["area"] = area;
     report["area_per_sample"] = area / double(samples.size());
     report["least_distance"] = least;
+    report["texels"] = nullptr;
+    if (plan.map) report["texels"] = {{"covered", hits.covered}, {"hit", hits.hit}};
     report["seconds"] = seconds.count();
     print_report(report);
   } else if (!quiet) {
@@ -202,6 +190,10 @@ int run_sample(const std::vector<std::string>& arguments) {
               << "spacing          " << options.spacing << "\n"
               << "least distance   " << least << "\n"
               << "area per sample  " << area / double(samples.size()) << "\n";
+    if (plan.map) {
+      std::cout << "texels hit       " << format_count(hits.hit) << " of "
+                << format_count(hits.covered) << "\n";
+    }
   }
   return 0;
 }

@@ -142,12 +142,9 @@ Samples point_samples(const TriangleMesh& mesh, const TexelMap& map, const NodeS
   std::vector<Sample> located(points.size());
   std::vector<Index> face_of(points.size());
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-    const Vec2 uv = mesh.uv(points[i]);
-    const TexelClaim square{static_cast<std::int32_t>(std::floor(uv.x() * map.width)),
-                            static_cast<std::int32_t>(std::floor((1 - uv.y()) * map.height))};
     const NodePoint at = surface.overlay.locate(points[i]);
     face_of[i] = at.face;
-    located[i] = make_sample(map.texel(square), at.barycentric, area);
+    located[i] = make_sample(map.texel_at(mesh.uv(points[i])), at.barycentric, area);
   });
   return sort_into_faces(std::move(located), face_of,
                          static_cast<Index>(surface.nodes.faces.size()));

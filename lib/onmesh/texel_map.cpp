@@ -135,6 +135,16 @@ std::vector<Strip> make_strips(const Atlas& atlas) {
   return strips;
 }
 
+Index TexelMap::texel_at(const Vec2& uv) const {
+  TexelClaim square{static_cast<std::int32_t>(std::floor(uv.x() * width)),
+                    static_cast<std::int32_t>(std::floor((1 - uv.y()) * height))};
+  if (wrap == Wrap::clamp) {
+    square.x = std::clamp(square.x, 0, width - 1);
+    square.y = std::clamp(square.y, 0, height - 1);
+  }
+  return texel(square);
+}
+
 Vec3 TexelMap::barycentric(Index face, const TexelClaim& claim) const {
   const auto& m = to_barycentric_[face];
   const Vec3 centre{claim.x + 0.5, claim.y + 0.5, 1};

@@ -50,6 +50,9 @@ class TexelMap {
     };
     return Index(wrapped(claim.y, height)) * Index(width) + Index(wrapped(claim.x, width));
   }
+  /// Index of the texel whose square holds the UV, wherever it lies: wrapped, or clamped to the
+  /// image.
+  Index texel_at(const Vec2& uv) const;
   /// Barycentric coordinates of the claim's centre in its face, clamped to the face.
   Vec3 barycentric(Index face, const TexelClaim& claim) const;
   /// Map from pixel coordinates (x right, y down, texel centres at +.5) to the face's barycentric
