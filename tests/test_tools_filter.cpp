@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <fstream>
+#include <string>
 #include <thread>
 
 #include "onmesh/image.h"
@@ -16,6 +18,16 @@ using Catch::Contains;
 namespace {
 
 std::vector<float> pixels_of(const Image& image) { return image.pixels; }
+
+/// Whether the process has set up its own handling of SIGINT.
+bool catches_interrupts(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind("SigCgt:", 0) != 0) continue;
+    return (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1) != 0;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -130,7 +142,11 @@ TEST_CASE("an interrupted run leaves the target as it was and nothing else behin
             "--sigma-spatial", "30tx", nullptr);
     ::_exit(99);
   }
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  const auto wait = [](int milliseconds) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+  };
+  for (int i = 0; i < 6000 && !catches_interrupts(child); ++i) wait(10);
+  wait(700);
   ::kill(child, SIGINT);
   int status = 0;
   ::waitpid(child, &status, 0);
