@@ -437,3 +437,32 @@ TEST_CASE("a UV beyond the image falls on the repeated or on the nearest texel",
   CHECK(repeated.texel_at({1.25, -0.1}) == 2);
   CHECK(clamped.texel_at({1.25, -0.1}) == 49);
 }
+
+TEST_CASE("texels are crowded where charts leave no free texel between them", "[texel_map]") {
+  // Two charts of 4 x 8 texels in a row, a number of texels apart.
+  for (const int gap : {0, 1}) {
+    TriangleMesh mesh = make_plane(1, 1, 4, 8);
+    const TriangleMesh other = mesh;
+    const auto place = [&](Vec2 uv, double x) { return Vec2((x + 4 * uv.x()) / 16, uv.y()); };
+    for (Vec2& uv : mesh.uvs) uv = place(uv, 1);
+    for (const Vec2& uv : other.uvs) mesh.uvs.push_back(place(uv, 5 + gap));
+    for (const Vec3& p : other.positions) mesh.positions.push_back(p + Vec3(10, 0, 0));
+    for (std::size_t f = 0; f < other.faces.size(); ++f) {
+      auto face = other.faces[f], uvs = other.face_uvs[f];
+      for (int k = 0; k < 3; ++k) {
+        face[k] += Index(other.positions.size());
+        uvs[k] += Index(other.uvs.size());
+      }
+      mesh.faces.push_back(face);
+      mesh.face_uvs.push_back(uvs);
+      mesh.face_materials.push_back(kNone);
+    }
+    const std::vector<Index> crowded = make_texel_map(mesh, 16, 8).crowded();
+    std::vector<Index> expected;
+    for (Index row = 0; row < 8 && gap == 0; ++row) {
+      expected.push_back(16 * row + 4);
+      expected.push_back(16 * row + 5);
+    }
+    CHECK(crowded == expected);
+  }
+}

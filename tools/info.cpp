@@ -39,7 +39,7 @@ struct TextureFacts {
   std::string path;     // empty for --resolution
   std::string trouble;  // why there is nothing else to tell
   int width = 0, height = 0, channels = 0;
-  std::uint64_t covered = 0, touched = 0, overlapped = 0;
+  std::uint64_t covered = 0, touched = 0, overlapped = 0, crowded = 0;
   double texel_size = 0;
   std::optional<SeamError> seams;
 };
@@ -54,6 +54,7 @@ void measure(const TriangleMesh& mesh, const Atlas& atlas, TextureFacts& facts) 
     facts.touched += c == Coverage::touched;
   }
   facts.overlapped = map.overlapped().size();
+  facts.crowded = map.crowded().size();
   if (facts.covered > 0) facts.texel_size = map.median_texel_size();
   if (facts.channels > 0) facts.seams = seam_error(mesh, map, atlas.image);
 }
@@ -153,6 +154,12 @@ void find_problems(const InputMesh& input, Findings& findings) {
   }
   for (const TextureFacts& facts : findings.textures) {
     if (!facts.trouble.empty()) findings.advice.push_back("texture " + facts.trouble);
+    if (facts.crowded > 0) {
+      findings.advice.push_back(format_count(facts.crowded) + " texels " +
+                                (facts.path.empty() ? "" : "of " + facts.path + " ") +
+                                "lie directly beside another chart's: look-ups there mix both, so "
+                                "leave at least 2 texels between charts");
+    }
   }
 }
 
@@ -166,6 +173,7 @@ nlohmann::json to_json(const TextureFacts& t) {
   json["covered"] = t.covered;
   json["touched"] = t.touched;
   json["overlapped"] = t.overlapped;
+  json["crowded"] = t.crowded;
   json["texel_size"] = t.texel_size;
   json["seams"] = nullptr;
   if (t.seams) {
@@ -244,6 +252,7 @@ void print_texture(const TextureFacts& t) {
   const double texels = double(t.width) * t.height;
   row("covered texels", format_count(t.covered) + " (" + percent(double(t.covered) / texels) + ")");
   row("touched texels", format_count(t.touched));
+  row("crowded texels", format_count(t.crowded));
   row("overlapped texels", format_count(t.overlapped));
   row("texel size", format_number(t.texel_size) + " mesh units (median)");
   if (!t.seams) return;

@@ -180,6 +180,31 @@ std::vector<Index> TexelMap::overlapped() const {
   return result;
 }
 
+std::vector<Index> TexelMap::crowded() const {
+  std::vector<Index> chart_at(coverage.size(), kNone);
+  for (std::size_t f = 0; f + 1 < face_offsets.size(); ++f) {
+    for (Index k = face_offsets[f]; k < face_offsets[f + 1]; ++k)
+      chart_at[texel(claims[k])] = chart_of_face[f];
+  }
+  const auto is_crowded = [&](int x, int y) {
+    const Index own = chart_at[texel({x, y})];
+    if (own == kNone) return false;
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v) {
+      for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
+        const Index other = chart_at[texel({u, v})];
+        if (other != kNone && other != own) return true;
+      }
+    }
+    return false;
+  };
+  std::vector<Index> result;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x)
+      if (is_crowded(x, y)) result.push_back(texel({x, y}));
+  }
+  return result;
+}
+
 double TexelMap::median_texel_size() const {
   std::vector<std::pair<double, Index>> sizes;
   for (std::size_t f = 0; f < texel_area.size(); ++f) {

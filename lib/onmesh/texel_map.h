@@ -61,6 +61,9 @@ class TexelMap {
 
   /// Texels claimed more than once, ascending.
   std::vector<Index> overlapped() const;
+  /// Covered texels that are 8-neighbours of another chart's, ascending: bilinear look-ups between
+  /// the two mix both charts, and no gutter fits in.
+  std::vector<Index> crowded() const;
   /// Median over claims of the square root of the texel's surface area: the unit "tx".
   double median_texel_size() const;
 
