@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <thread>
@@ -19,9 +20,12 @@ namespace {
 
 std::vector<float> pixels_of(const Image& image) { return image.pixels; }
 
-/// Whether the process has set up its own handling of SIGINT.
+/// Whether the process runs the program already, and has set up its own handling of SIGINT.
 bool catches_interrupts(pid_t process) {
-  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  const std::string folder = "/proc/" + std::to_string(process);
+  std::error_code error;
+  if (!std::filesystem::equivalent(folder + "/exe", ONMESH_PROGRAM, error)) return false;
+  std::ifstream status(folder + "/status");
   for (std::string line; std::getline(status, line);) {
     if (line.rfind("SigCgt:", 0) != 0) continue;
     return (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1) != 0;
