@@ -85,11 +85,12 @@ class Observer final : public DistanceBackend {
   /// Per tried texel, in the order of its truth.
   const std::vector<std::vector<double>>& node_distances() const { return node_distances_; }
   void report(Row& row) const {
-    const double rows = rows_, few = few_rows_;
-    const double per_row = rows > few ? std::max(0.0, (seconds_ - few_seconds_) / (rows - few)) : 0;
     row.table_ms = 1e3 * seconds_;
-    row.us_per_source = 1e6 * per_row;
-    row.prepare_ms = 1e3 * std::max(0.0, seconds_ - per_row * rows);
+    if (rows_ > few_rows_) {
+      const double per_row = std::max(0.0, (seconds_ - few_seconds_) / (rows_ - few_rows_));
+      row.us_per_source = 1e6 * per_row;
+      row.prepare_ms = 1e3 * std::max(0.0, seconds_ - per_row * rows_);
+    }
     row.memory_mb = 1e-6 * memory_;
   }
 

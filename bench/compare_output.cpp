@@ -162,22 +162,27 @@ std::string cost_table(const std::vector<Row>& rows, const std::vector<double>& 
   return out;
 }
 
-Chart chart_of(const std::vector<Row>& rows, const std::vector<std::string>& backends,
-               double (*value)(const Row&)) {
+/// One panel per mesh, one series per back end that has such numbers.
+Chart chart_of(const std::vector<Row>& rows, double (*value)(const Row&)) {
   Chart chart;
   chart.x_label = "sigma in texels";
   chart.x = distinct(rows, &Row::sigma_texels);
-  chart.series = backends;
-  for (const std::string& mesh : distinct(rows, &Row::mesh)) {
-    ChartPanel panel{mesh, {}};
-    for (const std::string& backend : backends) {
-      auto& series = panel.values.emplace_back();
+  const std::vector<std::string> meshes = distinct(rows, &Row::mesh);
+  for (const std::string& mesh : meshes) chart.panels.push_back({mesh, {}});
+  const std::vector<std::string> backends = distinct(rows, &Row::backend);
+  for (std::size_t b = 0; b < backends.size(); ++b) {
+    if (std::none_of(rows.begin(), rows.end(), [&](const Row& row) {
+          return row.backend == backends[b] && row.skipped.empty() && std::isfinite(value(row));
+        }))
+      continue;
+    chart.series.push_back({backends[b], b});
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+      auto& series = chart.panels[m].values.emplace_back();
       for (const double sigma : chart.x) {
-        const Row* row = find(rows, mesh, sigma, backend);
+        const Row* row = find(rows, meshes[m], sigma, backends[b]);
         series.push_back(row != nullptr ? value(*row) : Row::kUnmeasured);
       }
     }
-    chart.panels.push_back(std::move(panel));
   }
   return chart;
 }
@@ -236,29 +241,22 @@ std::string markdown(const std::vector<Row>& rows) {
 }
 
 void write_plots(const std::string& folder, const std::vector<Row>& rows) {
-  const std::vector<std::string> all = distinct(rows, &Row::backend);
-  std::vector<std::string> with_time;
-  for (const std::string& backend : all) {
-    if (timed(rows, backend)) with_time.push_back(backend);
-  }
-  Chart errors = chart_of(rows, all, [](const Row& r) { return r.error.mean; });
+  Chart errors = chart_of(rows, [](const Row& r) { return r.error.mean; });
   errors.title = "Mean error of distances within the kernel";
   errors.y_label = "error / sigma";
   errors.logarithmic = true;
   errors.lowest = 1e-5;
-  Chart quality = chart_of(rows, all, [](const Row& r) { return r.psnr_gaussian; });
-  quality.title = "Gaussian filter against the definition with exact distances";
+  Chart quality = chart_of(rows, [](const Row& r) { return r.psnr_gaussian; });
+  quality.title = "Gaussian filter against its definition with exact distances";
   quality.y_label = "PSNR / dB";
-  Chart times =
-      chart_of(rows, with_time, [](const Row& r) { return 1e3 * r.table_ms / double(r.nodes); });
+  Chart times = chart_of(rows, [](const Row& r) { return 1e3 * r.table_ms / double(r.nodes); });
   times.title = "Time for the distances from one node, precomputation included";
   times.y_label = "microseconds";
   times.logarithmic = true;
   times.lowest = 1e-3;
-  for (const auto& [name, chart] : {std::pair<const char*, const Chart&>{"errors.svg", errors},
-                                    {"psnr.svg", quality},
-                                    {"times.svg", times}})
-    write_file(folder + '/' + name, svg(chart));
+  write_file(folder + "/errors.svg", svg(errors));
+  write_file(folder + "/psnr.svg", svg(quality));
+  write_file(folder + "/times.svg", svg(times));
 }
 
 }  // namespace onmesh::compare

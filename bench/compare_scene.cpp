@@ -94,7 +94,7 @@ std::vector<Subject> built_in_subjects(bool quick) {
           subject("torus", 192, make_torus(32, 16)),
           subject("saddle", 128, make_saddle(16)),
           subject("blob", 192, make_blob(3, 1)),
-          book(192)};
+          book(256)};
 }
 
 Subject subject_from_file(const std::string& path, int size) {

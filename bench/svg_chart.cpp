@@ -13,7 +13,7 @@ constexpr int kColumns = 4;
 constexpr double kPanelWidth = 190, kPanelHeight = 130, kGapX = 22, kGapY = 44;
 constexpr double kLeft = 64, kTop = 84, kRight = 12, kBottom = 46;
 const char* const kText = "#6e7781";
-const char* const kColours[] = {"#2f81f7", "#d4721a", "#2da44e", "#a371f7", "#d1467e"};
+const char* const kColours[] = {"#848d97", "#2f81f7", "#d4721a", "#2da44e", "#a371f7", "#d1467e"};
 
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
@@ -44,9 +44,13 @@ std::string line(double x0, double y0, double x1, double y1, double opacity) {
       x0, y0, x1, y1, kText, opacity);
 }
 
-std::string marker(std::size_t series, double x, double y) {
-  const char* const colour = kColours[series % std::size(kColours)];
-  switch (series % 4) {
+const char* colour_of(const ChartSeries& series) {
+  return kColours[series.style % std::size(kColours)];
+}
+
+std::string marker(const ChartSeries& series, double x, double y) {
+  const char* const colour = colour_of(series);
+  switch (series.style % 4) {
     case 0:
       return format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\"/>\n", x, y, colour);
     case 1:
@@ -64,7 +68,7 @@ std::string marker(std::size_t series, double x, double y) {
 struct Axis {
   double low = 0, high = 1;  ///< exponents if logarithmic
   std::vector<double> ticks;
-  bool logarithmic = false;
+  bool logarithmic = false, cut = false;  ///< cut: values below the lowest are drawn at it
 
   explicit Axis(const Chart& chart) : logarithmic(chart.logarithmic) {
     low = std::numeric_limits<double>::infinity();
@@ -72,6 +76,7 @@ struct Axis {
     for (const ChartPanel& panel : chart.panels) {
       for (const auto& series : panel.values) {
         for (double v : series) {
+          cut = cut || (logarithmic && v < chart.lowest);
           if (logarithmic) v = std::log10(std::max(v, chart.lowest));
           if (!std::isfinite(v)) continue;
           low = std::min(low, v);
@@ -96,7 +101,8 @@ struct Axis {
     return kPanelHeight * (high - v) / (high - low);
   }
   std::string label(double tick) const {
-    return format("%g", logarithmic ? std::pow(10, std::round(tick)) : tick);
+    const std::string number = format("%g", logarithmic ? std::pow(10, std::round(tick)) : tick);
+    return cut && tick == low ? "\u2264 " + number : number;
   }
 };
 
@@ -120,10 +126,10 @@ std::string draw_panel(const Chart& chart, const Axis& axis, const ChartPanel& p
       if (!std::isfinite(value)) continue;
       const double y = top + axis.position(value, chart.lowest);
       points += format("%.1f,%.1f ", x_of(i), y);
-      markers += marker(s, x_of(i), y);
+      markers += marker(chart.series[s], x_of(i), y);
     }
     out += "<polyline points=\"" + points + "\" fill=\"none\" stroke=\"" +
-           kColours[s % std::size(kColours)] + "\" stroke-width=\"1.6\"/>\n" + markers;
+           colour_of(chart.series[s]) + "\" stroke-width=\"1.6\"/>\n" + markers;
   }
   return out;
 }
@@ -141,9 +147,9 @@ std::string svg(const Chart& chart) {
       width, height, width, height, kText);
   out += text(kLeft, 20, "start", 15, chart.title, " font-weight=\"bold\"");
   double x = kLeft + 8;
-  for (std::size_t s = 0; s < chart.series.size(); ++s) {
-    out += marker(s, x, 40) + text(x + 9, 44, "start", 13, chart.series[s]);
-    x += 38 + 7.5 * double(chart.series[s].size());
+  for (const ChartSeries& series : chart.series) {
+    out += marker(series, x, 40) + text(x + 9, 44, "start", 13, series.name);
+    x += 38 + 7.5 * double(series.name.size());
   }
   const Axis axis(chart);
   for (std::size_t p = 0; p < chart.panels.size(); ++p) {

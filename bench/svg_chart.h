@@ -12,12 +12,17 @@ struct ChartPanel {
   std::vector<std::vector<double>> values;
 };
 
+struct ChartSeries {
+  std::string name;
+  std::size_t style = 0;  ///< colour and marker; the first is grey
+};
+
 struct Chart {
   std::string title, x_label, y_label;
   std::vector<double> x;  ///< equally spaced on the axis, whatever their values
-  std::vector<std::string> series;
+  std::vector<ChartSeries> series;
   std::vector<ChartPanel> panels;
-  bool logarithmic = false;  ///< the y axis; values <= 0 are drawn at the bottom
+  bool logarithmic = false;  ///< the y axis; values <= 0 count as the lowest
   double lowest = 0;         ///< logarithmic: values below are drawn here
 };
 
