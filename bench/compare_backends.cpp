@@ -1,6 +1,6 @@
 // onmesh_compare_backends: all distance back ends on the same meshes, nodes and sources.
 //
-// Per mesh and kernel size, 100 texels are tried. Truth is a closed form or CGAL's exact geodesics,
+// Per mesh and kernel size, 200 texels are tried. Truth is a closed form or CGAL's exact geodesics,
 // from those texels to every texel within the kernel. Every back end fills the tables of the
 // filter's own patches between the filter's own nodes (set_up_filter, refine, filter_patches with
 // the default spacing rule), and three things are compared with the truth:
@@ -42,7 +42,7 @@ const char* const kUsage =
     "  --quick           a smoke test of a few seconds\n"
     "  --sigmas LIST     kernel sizes in texels (default: 4,8,16)\n"
     "  --size N          texels per side of the texture of a mesh from a file (default: 1024)\n"
-    "  --texels N        texels tried per mesh and kernel size (default: 100)\n"
+    "  --texels N        texels tried per mesh and kernel size (default: 200)\n"
     "  --repeats N       runs per time (default: 3)\n"
     "  --csv FILE        all numbers\n"
     "  --markdown FILE   the tables of the README\n"
@@ -108,7 +108,7 @@ Options parse(const std::vector<std::string>& arguments) {
   }
   if (options.sigmas.empty()) options.sigmas = {4, 8, 16};
   if (options.quick) options.sigmas = {4};
-  if (options.texels == 0) options.texels = options.quick ? 10 : 100;
+  if (options.texels == 0) options.texels = options.quick ? 10 : 200;
   if (options.repeats == 0) options.repeats = options.quick ? 1 : 3;
   return options;
 }
