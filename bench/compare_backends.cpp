@@ -17,10 +17,11 @@
 // `exact` is a table filled with the truth: what is left is the error of the interpolation (and
 // float rounding), the floor for all back ends. `Euclidean` are straight lines without any table.
 //
-// Times are CPU times on one thread, medians of several runs. Precomputation (prepare) is what a
-// back end does once and per patch whatever the number of sources: the difference between tables of
-// few and of all rows tells it from the time per source. Refinement is the same for all; it is in
-// the CSV. Memory is the most by which one patch, its table included, raises the resident set.
+// Times are CPU times on one thread per source node, medians of several runs. Precomputation
+// (prepare, part of the time per node) is what a back end does once and per patch whatever the
+// number of sources; the difference between tables of few and of all rows tells it. Refinement is
+// the same for all; it is in the CSV. Memory is the most by which one patch, its table included,
+// raises the resident set.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -46,7 +47,7 @@ const char* const kUsage =
     "  --repeats N       runs per time (default: 3)\n"
     "  --csv FILE        all numbers\n"
     "  --markdown FILE   the tables of the README\n"
-    "  --plots FOLDER    errors.svg, psnr.svg and times.svg\n";
+    "  --plots FOLDER    backend-errors.svg, backend-psnr.svg, backend-times.svg\n";
 
 struct Options {
   std::vector<std::string> meshes;

@@ -1,197 +1,16 @@
 #include "compare_measure.h"
 
-#include <malloc.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <string>
 
+#include "compare_observer.h"
 #include "onmesh/filter_patches.h"
 
 namespace onmesh::compare {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// The process's resident memory in bytes, now ("VmRSS:") or at its peak ("VmHWM:").
-double resident(const std::string& key) {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  while (status >> word) {
-    double kilobytes = 0;
-    if (word == key && status >> kilobytes) return 1024 * kilobytes;
-  }
-  return 0;
-}
-
-/// What work() adds to the resident memory at its peak, in bytes.
-template <class Work>
-double peak_memory(Work&& work) {
-  malloc_trim(0);
-  std::ofstream("/proc/self/clear_refs") << "5";  // sets the peak back
-  const double before = resident("VmRSS:");
-  work();
-  return std::max(0.0, resident("VmHWM:") - before);
-}
-
-/// Hands fill() on to a back end, and looks at every table that the filter gets.
-class Observer final : public DistanceBackend {
- public:
-  Observer(const Scene& scene, const DistanceBackend& backend, int repeats)
-      : scene_(scene),
-        backend_(backend),
-        repeats_(repeats),
-        distances_(scene.tried.size()),
-        tried_in_face_(scene.surface.nodes.faces.size()) {
-    for (std::size_t k = 0; k < scene.tried.size(); ++k) {
-      const Index texel = scene.points.texels[scene.tried[k].centre];
-      tried_in_face_[scene.places[texel].face].push_back(k);
-    }
-  }
-  void expect(const NodeTruth& truth) {
-    node_truth_ = &truth;
-    node_distances_.resize(truth.size());
-  }
-  /// Keep the tables' own entries up to this distance as the truth.
-  void record(double radius, NodeTruth& truth) {
-    truth.assign(scene_.tried.size(), {});
-    recorded_ = &truth;
-    record_radius_ = radius;
-  }
-
-  std::string_view name() const override { return backend_.name(); }
-  double margin(double reach, double longest_edge) const override {
-    return backend_.margin(reach, longest_edge);
-  }
-  void fill(const Patch& patch, double reach, DistanceTable& table) const override {
-    if (repeats_ > 0) {
-      measure(patch, reach, table);
-    } else {
-      backend_.fill(patch, reach, table);
-    }
-    look_up(patch, table);
-  }
-
-  /// Per tried texel, as in its neighbourhood; NaN = unreachable.
-  const std::vector<std::vector<double>>& distances() const { return distances_; }
-  /// Per tried texel, in the order of its truth.
-  const std::vector<std::vector<double>>& node_distances() const { return node_distances_; }
-  void report(Row& row) const {
-    row.table_ms = 1e3 * seconds_;
-    if (rows_ > few_rows_) {
-      const double per_row = std::max(0.0, (seconds_ - few_seconds_) / (rows_ - few_rows_));
-      row.us_per_source = 1e6 * per_row;
-      row.prepare_ms = 1e3 * std::max(0.0, seconds_ - per_row * rows_);
-    }
-    row.memory_mb = 1e-6 * memory_;
-  }
-
- private:
-  /// Precomputation is what a table of few rows costs, less those rows.
-  void measure(const Patch& patch, double reach, DistanceTable& table) const {
-    constexpr Index kFewRows = 16;  // what back ends work on at a time
-    Patch small = patch;
-    small.core_nodes = std::min(kFewRows, patch.core_nodes);
-    table = {};
-    memory_ = std::max(memory_, peak_memory([&] { backend_.fill(patch, reach, table); }));
-    std::vector<double> full, few;
-    for (int i = 0; i < repeats_; ++i) {
-      DistanceTable unused;
-      const double start = thread_seconds();
-      backend_.fill(small, reach, unused);
-      const double middle = thread_seconds();
-      backend_.fill(patch, reach, table);
-      few.push_back(middle - start);
-      full.push_back(thread_seconds() - middle);
-    }
-    seconds_ += median(full);
-    few_seconds_ += median(few);
-    rows_ += patch.core_nodes;
-    few_rows_ += small.core_nodes;
-  }
-
-  void look_up(const Patch& patch, const DistanceTable& table) const {
-    std::vector<Index> face(scene_.surface.nodes.faces.size(), kNone);
-    std::vector<Index> node(scene_.surface.nodes.nodes.size(), kNone);
-    for (Index f = 0; f < patch.faces.size(); ++f) face[patch.faces[f]] = f;
-    for (Index n = 0; n < patch.nodes.size(); ++n) node[patch.nodes[n]] = n;
-    for (Index f = 0; f < patch.core_faces; ++f) {
-      for (const std::size_t k : tried_in_face_[patch.faces[f]]) {
-        distances_[k] = distances_of(k, patch, table, f, face);
-        if (node_truth_ != nullptr) compare_nodes(k, patch, table, f, node);
-        if (recorded_ != nullptr) record_nodes(k, patch, table, f);
-      }
-    }
-  }
-
-  std::vector<double> distances_of(std::size_t k, const Patch& patch, const DistanceTable& table,
-                                   Index f, const std::vector<Index>& local_face) const {
-    const Neighbourhood& around = scene_.tried[k];
-    const Vec3 a = place(around.centre).barycentric;
-    const double variance = barycentric_variance(patch.lengths[f], a);
-    std::vector<double> out;
-    out.reserve(around.near.size());
-    for (const std::size_t y : around.near) {
-      const NodePoint& b = place(y);
-      const Index g = b.face == kNone ? kNone : local_face[b.face];
-      double squared[3][3], d2 = double(kUnreachable);
-      if (g != kNone) {
-        for (std::size_t i = 0; i < 3; ++i) {
-          for (std::size_t j = 0; j < 3; ++j)
-            squared[i][j] = double(table.row(patch.corners[f][i])[patch.corners[g][j]]);
-        }
-        d2 = interpolate_squared(squared, a, b.barycentric, variance,
-                                 barycentric_variance(patch.lengths[g], b.barycentric));
-      }
-      out.push_back(d2 < double(kUnreachable) ? std::sqrt(d2) : kNaN);
-    }
-    return out;
-  }
-
-  void compare_nodes(std::size_t k, const Patch& patch, const DistanceTable& table, Index f,
-                     const std::vector<Index>& local_node) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (const auto& [node, d] : (*node_truth_)[k][i]) {
-        const Index n = local_node[node];
-        const float d2 = n == kNone ? kUnreachable : table.row(patch.corners[f][i])[n];
-        node_distances_[k].push_back(d2 < kUnreachable ? std::sqrt(double(d2)) : kNaN);
-      }
-    }
-  }
-
-  void record_nodes(std::size_t k, const Patch& patch, const DistanceTable& table, Index f) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const float* row = table.row(patch.corners[f][i]);
-      for (Index n = 0; n < patch.nodes.size(); ++n) {
-        if (double(row[n]) <= record_radius_ * record_radius_)
-          (*recorded_)[k][i].emplace_back(patch.nodes[n], std::sqrt(double(row[n])));
-      }
-    }
-  }
-
-  const NodePoint& place(std::size_t point) const {
-    return scene_.places[scene_.points.texels[point]];
-  }
-
-  const Scene& scene_;
-  const DistanceBackend& backend_;
-  const int repeats_;
-  const NodeTruth* node_truth_ = nullptr;
-  NodeTruth* recorded_ = nullptr;
-  double record_radius_ = 0;
-  // Every tried texel is in one core face of one patch, so patches write to places of their own.
-  mutable std::vector<std::vector<double>> distances_, node_distances_;
-  std::vector<std::vector<std::size_t>> tried_in_face_;
-  mutable double seconds_ = 0, few_seconds_ = 0, rows_ = 0, few_rows_ = 0, memory_ = 0;
-};
 
 /// True distances where the filter has its back end.
 class Truth final : public DistanceBackend {
@@ -376,14 +195,17 @@ Row measure_backend(const Scene& scene, DistanceMethod method, const NodeTruth& 
     Values values;
     tbb::task_arena(1).execute(
         [&] { values = filter_values(scene, FilterKind::bilateral, observer, scene.samples); });
-    observer.report(row);
-    row.prepare_ms += 1e3 * made;
-    row.table_ms += 1e3 * made;
+    const double made_us = 1e6 * made / double(row.nodes);
+    row.cost = observer.cost();
+    row.cost.us_per_source += made_us;
+    row.cost.prepare_us += made_us;
     row.error = error_of(scene, observer.distances());
     row.node_error = node_error_of(scene, truth, observer.node_distances());
     add_psnr(scene, FilterKind::bilateral, values, row);
-    add_psnr(scene, FilterKind::gaussian,
-             filter_values(scene, FilterKind::gaussian, *backend, scene.samples), row);
+    add_psnr(
+        scene, FilterKind::gaussian,
+        filter_values(scene, FilterKind::gaussian, Observer(scene, *backend, 0), scene.samples),
+        row);
   } catch (const std::runtime_error& error) {
     row.skipped = error.what();
   }

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <limits>
-#include <optional>
-#include <utility>
 
+#include "compare_observer.h"
 #include "compare_scene.h"
 #include "onmesh/distance_error.h"
 
@@ -24,17 +23,9 @@ struct Row {
   /// Of the table's entries: distances between nodes within that radius.
   DistanceError node_error;
   double psnr_gaussian = kUnmeasured, psnr_bilateral = kUnmeasured;  ///< dB
-  double refine_ms = kUnmeasured;      ///< making the nodes (the same for all back ends)
-  double prepare_ms = kUnmeasured;     ///< precomputation: once and per patch
-  double table_ms = kUnmeasured;       ///< filling all tables, precomputation included
-  double us_per_source = kUnmeasured;  ///< filling, precomputation not included
-  double memory_mb =
-      kUnmeasured;  ///< most that a patch takes while its table is filled, with the table
+  double refine_ms = kUnmeasured;  ///< making the nodes (the same for all back ends)
+  Cost cost;
 };
-
-/// True distances between the corners of the node faces that the tried texels lie in and all nodes
-/// within the radius: per tried texel and corner.
-using NodeTruth = std::vector<std::array<std::vector<std::pair<Index, double>>, 3>>;
 
 /// The table filled with true distances: what interpolation alone costs. Fills `truth`.
 Row measure_exact(const Scene& scene, NodeTruth& truth);

@@ -34,10 +34,9 @@ const Column kColumns[] = {
     {"psnr_gaussian_db", [](const Row& r) { return r.psnr_gaussian; }},
     {"psnr_bilateral_db", [](const Row& r) { return r.psnr_bilateral; }},
     {"refine_ms", [](const Row& r) { return r.refine_ms; }},
-    {"prepare_ms", [](const Row& r) { return r.prepare_ms; }},
-    {"table_ms", [](const Row& r) { return r.table_ms; }},
-    {"us_per_source", [](const Row& r) { return r.us_per_source; }},
-    {"memory_mb", [](const Row& r) { return r.memory_mb; }},
+    {"us_per_source", [](const Row& r) { return r.cost.us_per_source; }},
+    {"prepare_us", [](const Row& r) { return r.cost.prepare_us; }},
+    {"memory_mb", [](const Row& r) { return r.cost.memory_mb; }},
 };
 
 std::string format(const char* pattern, double value) {
@@ -108,7 +107,7 @@ double median_over_meshes(const std::vector<Row>& rows, double sigma, const std:
 
 bool timed(const std::vector<Row>& rows, const std::string& backend) {
   return std::any_of(rows.begin(), rows.end(), [&](const Row& row) {
-    return row.backend == backend && std::isfinite(row.table_ms);
+    return row.backend == backend && std::isfinite(row.cost.us_per_source);
   });
 }
 
@@ -152,10 +151,9 @@ std::string cost_table(const std::vector<Row>& rows, const std::vector<double>& 
       const auto value = [&](const char* pattern, double (*of)(const Row&)) {
         return number(pattern, median_over_meshes(rows, sigma, backend, of));
       };
-      out += ' ' +
-             value("%.2g", [](const Row& r) { return 1e3 * r.prepare_ms / double(r.nodes); }) +
-             " + " + value("%.2g", [](const Row& r) { return r.us_per_source; }) + " us; " +
-             value("%.1f", [](const Row& r) { return r.memory_mb; }) + " MB |";
+      out += ' ' + value("%.0f", [](const Row& r) { return r.cost.us_per_source; }) + " (" +
+             value("%.0f", [](const Row& r) { return r.cost.prepare_us; }) + ") us; " +
+             value("%.1f", [](const Row& r) { return r.cost.memory_mb; }) + " MB |";
     }
     out += '\n';
   }
@@ -192,10 +190,10 @@ Chart chart_of(const std::vector<Row>& rows, double (*value)(const Row&)) {
 std::string text_header() {
   return "mesh             sigma  back end   error / sigma:          weights  missed  PSNR / dB:   "
          "  "
-         "  prepare   per node   memory\n"
+         "per node  prepare   memory\n"
          "                 / tx               mean    p99    max    wrong %  leaked  Gauss bilat   "
          " "
-         "       ms         us       MB\n";
+         "     us       us       MB\n";
 }
 
 std::string text_line(const Row& row) {
@@ -208,8 +206,9 @@ std::string text_line(const Row& row) {
   out += padded(std::to_string(row.error.missed) + '+' + std::to_string(row.error.leaked), 9);
   out +=
       padded(number("%.1f", row.psnr_gaussian), 7) + padded(number("%.1f", row.psnr_bilateral), 6);
-  out += padded(number("%.2f", row.prepare_ms), 13) + padded(number("%.2f", row.us_per_source), 11);
-  return out + padded(number("%.2f", row.memory_mb), 9) + '\n';
+  out += padded(number("%.2f", row.cost.us_per_source), 11) +
+         padded(number("%.2f", row.cost.prepare_us), 9);
+  return out + padded(number("%.2f", row.cost.memory_mb), 9) + '\n';
 }
 
 std::string csv(const std::vector<Row>& rows) {
@@ -235,8 +234,8 @@ std::string markdown(const std::vector<Row>& rows) {
   return "Error of the distance at sigma = " + format("%g", middle) +
          " texels, mean / p99 in sigma; PSNR of the Gaussian / bilateral filter:\n\n" +
          accuracy_table(rows, middle, backends) +
-         "\nTime per node, precomputation + distances, and memory of a patch (medians over the "
-         "meshes):\n\n" +
+         "\nTime per source node (precomputation's share of it), and memory of a patch; medians "
+         "over the meshes:\n\n" +
          cost_table(rows, sigmas, backends);
 }
 
@@ -249,14 +248,14 @@ void write_plots(const std::string& folder, const std::vector<Row>& rows) {
   Chart quality = chart_of(rows, [](const Row& r) { return r.psnr_gaussian; });
   quality.title = "Gaussian filter against its definition with exact distances";
   quality.y_label = "PSNR / dB";
-  Chart times = chart_of(rows, [](const Row& r) { return 1e3 * r.table_ms / double(r.nodes); });
+  Chart times = chart_of(rows, [](const Row& r) { return r.cost.us_per_source; });
   times.title = "Time for the distances from one node, precomputation included";
   times.y_label = "microseconds";
   times.logarithmic = true;
   times.lowest = 1e-3;
-  write_file(folder + "/errors.svg", svg(errors));
-  write_file(folder + "/psnr.svg", svg(quality));
-  write_file(folder + "/times.svg", svg(times));
+  write_file(folder + "/backend-errors.svg", svg(errors));
+  write_file(folder + "/backend-psnr.svg", svg(quality));
+  write_file(folder + "/backend-times.svg", svg(times));
 }
 
 }  // namespace onmesh::compare

@@ -20,7 +20,7 @@ std::string csv(const std::vector<Row>& rows);
 /// kernel size.
 std::string markdown(const std::vector<Row>& rows);
 
-/// Writes errors.svg, psnr.svg and times.svg into the folder.
+/// Writes backend-errors.svg, backend-psnr.svg and backend-times.svg into the folder.
 /// \throw FileError
 void write_plots(const std::string& folder, const std::vector<Row>& rows);
 

@@ -70,6 +70,24 @@ std::vector<NodePoint> places_of_texels(const Samples& samples, std::size_t texe
   return places;
 }
 
+/// Random samples of different texels that nothing else claims. Where there are few of those, some
+/// tries fail, and fewer are chosen.
+std::vector<std::size_t> choose_centres(const Scene& scene, std::size_t count) {
+  const std::vector<Index> overlapped = scene.setup.map.overlapped();
+  std::vector<bool> taken(scene.setup.map.coverage.size(), false);
+  for (const Index texel : overlapped) taken[texel] = true;
+  std::vector<std::size_t> centres;
+  std::mt19937 random(42);
+  for (std::size_t i = 0; i < 100 * count && centres.size() < count; ++i) {
+    const std::size_t x = random() % scene.points.points.size();
+    const Index texel = scene.points.texels[x];
+    if (taken[texel]) continue;
+    taken[texel] = true;
+    centres.push_back(x);
+  }
+  return centres;
+}
+
 }  // namespace
 
 double thread_seconds() {
@@ -119,6 +137,13 @@ Scene make_scene(const Subject& subject, double sigma_texels, std::size_t texels
   scene.setup = set_up_filter(subject.make(in_texels.smooth), scene.texture, options);
   const TriangleMesh& mesh = scene.setup.mesh;
 
+  scene.points = texel_points(mesh, scene.setup.map);
+  const std::vector<std::size_t> centres = choose_centres(scene, texels);
+  if (centres.empty()) throw InputError(subject.name + ": several places claim every texel");
+  scene.tried_at.assign(scene.setup.map.coverage.size(), kNone);
+  for (std::size_t i = 0; i < centres.size(); ++i)
+    scene.tried_at[scene.points.texels[centres[i]]] = Index(i);
+
   RefineOptions refine_options;
   refine_options.spacing = scene.setup.plan.node_spacing;
   refine_options.finest = scene.setup.plan.finest_spacing;
@@ -128,19 +153,6 @@ Scene make_scene(const Subject& subject, double sigma_texels, std::size_t texels
   scene.samples = texel_samples(scene.setup.map, scene.surface);
   scene.places = places_of_texels(scene.samples, scene.setup.map.coverage.size());
 
-  scene.points = texel_points(mesh, scene.setup.map);
-  std::vector<std::size_t> centres;
-  scene.tried_at.assign(scene.places.size(), kNone);
-  std::mt19937 random(42);
-  // Texels that several places claim are passed over; so few others may be left that some tries
-  // fail.
-  for (std::size_t i = 0; i < 100 * texels && centres.size() < texels; ++i) {
-    const std::size_t x = random() % scene.points.points.size();
-    const Index texel = scene.points.texels[x];
-    if (scene.places[texel].face == kNone || scene.tried_at[texel] != kNone) continue;
-    scene.tried_at[texel] = Index(centres.size());
-    centres.push_back(x);
-  }
   scene.truth_on = subject.truth;
   const double radius = scene.weights(FilterKind::gaussian).radius;
   const Distances distances = scene.truth(radius * (1 + 1e-5));

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kColumns = 4;
 constexpr double kPanelWidth = 190, kPanelHeight = 130, kGapX = 22, kGapY = 44;
-constexpr double kLeft = 64, kTop = 84, kRight = 12, kBottom = 46;
+constexpr double kLeft = 78, kTop = 84, kRight = 12, kBottom = 46;
 const char* const kText = "#6e7781";
 const char* const kColours[] = {"#848d97", "#2f81f7", "#d4721a", "#2da44e", "#a371f7", "#d1467e"};
 
