@@ -1,9 +1,8 @@
 // The whole filter against its definition, with distances from closed forms or CGAL.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
-#include "brute_force.h"
+#include "closed_forms.h"
 #include "onmesh/pattern.h"
 #include "onmesh/shapes.h"
 
@@ -41,48 +40,6 @@ double psnr_exact(const TriangleMesh& mesh, int size, const Case& c) {
   return psnr_against(mesh, size, c, [&](const SurfacePoint& source, const auto& targets) {
     return exact.distances(source, targets);
   });
-}
-
-/// Distances on a cone with a sector of less than 360 degrees, from its flat chart: the shorter way
-/// around the apex.
-Distances cone_distances(const TriangleMesh& cone, double sector_degrees) {
-  Index apex_face = 0, apex_corner = 0;
-  for (Index f = 0; f < cone.faces.size(); ++f) {
-    for (Index k = 0; k < 3; ++k) {
-      if (cone.positions[cone.faces[f][k]].norm() < 1e-12) {
-        apex_face = f;
-        apex_corner = k;
-      }
-    }
-  }
-  const Vec2 apex = cone.corner_uvs(apex_face)[apex_corner];
-  const auto corner = cone.corners(apex_face);
-  const auto uv = cone.corner_uvs(apex_face);
-  const double scale = (corner[1] - corner[0]).norm() / (uv[1] - uv[0]).norm();
-  const double sector = sector_degrees * std::numbers::pi / 180;
-  // Angles from the sector's middle, so that they do not jump inside it.
-  Vec2 sum = Vec2::Zero();
-  for (Index f = 0; f < cone.faces.size(); ++f) {
-    for (const Vec2& p : cone.corner_uvs(f)) sum += p - apex;
-  }
-  const Vec2 middle = sum.normalized(), left(-middle.y(), middle.x());
-  return [&cone, apex, scale, sector, middle, left](const SurfacePoint& source,
-                                                    const std::vector<SurfacePoint>& targets) {
-    const auto polar = [&](const SurfacePoint& p) {
-      const Vec2 v = scale * (cone.uv(p) - apex);
-      return std::pair(v.norm(), std::atan2(v.dot(left), v.dot(middle)));
-    };
-    const auto [r, angle] = polar(source);
-    std::vector<double> out;
-    for (const SurfacePoint& target : targets) {
-      const auto [s, other] = polar(target);
-      const double across = std::abs(angle - other), turn = std::min(across, sector - across);
-      out.push_back(turn < std::numbers::pi
-                        ? std::sqrt(std::max(0.0, r * r + s * s - 2 * r * s * std::cos(turn)))
-                        : r + s);
-    }
-    return out;
-  };
 }
 
 }  // namespace

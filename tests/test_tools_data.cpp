@@ -292,7 +292,8 @@ TEST_CASE("the error against exact distances is small and shrinks with the spaci
   const auto coarse = space.must(base + "--spacing 5%").json()["compare"];
   const auto fine = space.must(base + "--spacing 1%").json()["compare"];
   CHECK(keys(fine) == std::vector<std::string>{"max", "max_in_sigma", "mean", "mean_in_sigma",
-                                               "missed", "p99", "p99_in_sigma", "points", "sigma"});
+                                               "missed", "p99", "p99_in_sigma", "points", "sigma",
+                                               "wrong_weights"});
   CHECK(fine["points"].get<int>() > coarse["points"].get<int>());
   CHECK(fine["mean"].get<double>() < coarse["mean"].get<double>());
   CHECK(fine["mean_in_sigma"].get<double>() < 0.01);
@@ -302,4 +303,41 @@ TEST_CASE("the error against exact distances is small and shrinks with the spaci
       "distance m.obj --vertex 7 --radius 25% --spacing 5% --compare exact --distance heat");
   CHECK_THAT(text.out, Contains("error of heat against exact") && Contains("p99") &&
                            Contains("sigma = radius / 2.5"));
+}
+
+TEST_CASE("all back ends are compared side by side", "[tools][distance]") {
+  const Workspace space;
+  space.must("make-mesh blob --levels 3 -o m.obj");
+  const std::string base = "distance m.obj --vertex 7 --radius 25% --spacing 5% ";
+  const auto one = space.must(base + "--compare exact --distance heat --json").json();
+  const auto all = space.must(base + "--compare all --json").json();
+  CHECK(one["compare_all"].is_null());
+  const auto& rows = all["compare_all"];
+  for (const std::string name : {"unfold", "heat", "euclidean"}) {
+    REQUIRE(rows.contains(name));
+    CHECK(rows[name]["points"] == one["compare"]["points"]);
+    CHECK(rows[name]["missed"] == 0);
+    CHECK(rows[name]["wrong_weights"].get<double>() > 0);
+    CHECK(rows[name]["seconds"].get<double>() >= 0);
+  }
+  // The chosen back end's numbers are those it has alone; geodesic ones beat straight lines.
+  CHECK(rows["heat"]["mean"] == one["compare"]["mean"]);
+  CHECK(rows["unfold"]["mean"] == all["compare"]["mean"]);
+  for (const char* measure : {"mean_in_sigma", "wrong_weights"}) {
+    CHECK(rows["unfold"][measure] < rows["euclidean"][measure]);
+    CHECK(rows["heat"][measure] < rows["euclidean"][measure]);
+  }
+  // A wider Gaussian makes the same errors matter less.
+  const auto wide = space.must(base + "--compare all --sigma 50% --json").json()["compare_all"];
+  CHECK(wide["heat"]["mean"] == rows["heat"]["mean"]);
+  CHECK(wide["heat"]["wrong_weights"] < rows["heat"]["wrong_weights"]);
+  const Run text = space.must(base + "--compare all --sigma 5% --distance exact");
+  CHECK_THAT(text.out, Contains("in sigma = ") && Contains("wrong weights") &&
+                           Contains("\n  unfold ") && Contains("\n  heat ") &&
+                           Contains("\n  euclidean "));
+  // Without a radius and a sigma there is no Gaussian.
+  CHECK_THAT(space.must("distance m.obj --vertex 7 --spacing 5% --compare all").out,
+             Contains("in mesh units") && !Contains("weights"));
+  CHECK(space.run("distance m.obj --vertex 7 --sigma 5%").code == 2);
+  CHECK(space.run("distance m.obj --vertex 7 --compare none").code == 2);
 }

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
-#include "distance_field.h"
+#include "distance_compare.h"
 #include "inputs.h"
 #include "onmesh/half_edge_mesh.h"
 #include "onmesh/length.h"
@@ -31,6 +31,7 @@ Command make_command() {
   command.examples =
       "  onmesh distance cube.obj --vertex 0 -o distance.ply\n"
       "  onmesh distance cube.obj --uv 0.2,0.6 --radius 20% --compare exact\n"
+      "  onmesh distance cube.obj --uv 0.2,0.6 --radius 20% --compare all --sigma 5%\n"
       "  onmesh distance cube.obj --point 0,0,1 --distance heat --texture d.exr -t cube.png\n"
       "  onmesh view cube.obj --distance-ply distance.ply -o picture.png\n";
   auto add = command.options.add_options();
@@ -43,7 +44,12 @@ Command make_command() {
   add("spacing", text(),
       "distance between nodes, likewise (default: the mean edge, 1% or a fifth of the radius, "
       "whichever is least)");
-  add("compare", text(), "exact: print the error at all nodes within the radius");
+  add("compare", text(),
+      "exact: print the error at all nodes within the radius; all: that of every back end, side by "
+      "side, and of straight lines");
+  add("sigma", text(),
+      "with --compare, the Gaussian that errors are put in relation to: a length (default: the "
+      "radius / 2.5, as the bilateral filter has it)");
   add("output,o", text(), "PLY to write: the welded mesh with a distance per vertex");
   add("nodes-ply", text(), "PLY to write: the nodes with a distance each");
   // As with the other commands, -t is the texture that is there; --texture is the result.
@@ -76,8 +82,8 @@ std::vector<double> parse_numbers(const po::variables_map& values, const std::st
 // What was asked for, checked as far as that goes without the mesh.
 struct Request {
   DistanceMethod method = DistanceMethod::automatic;
-  std::optional<Length> radius, spacing;
-  bool compare = false, needs_nodes = false, needs_atlas = false;
+  std::optional<Length> radius, spacing, sigma;
+  bool compare = false, compare_all = false, needs_nodes = false, needs_atlas = false;
 };
 
 Request read_request(const po::variables_map& values) {
@@ -91,20 +97,25 @@ Request read_request(const po::variables_map& values) {
   }
   const bool exact = request.method == DistanceMethod::exact;
   if (has(values, "compare")) {
-    if (text_of(values, "compare") != "exact")
-      throw UsageError("--compare: '" + text_of(values, "compare") + "' is not exact");
-    if (exact) throw UsageError("--compare exact needs another back end than --distance exact");
+    const std::string with = text_of(values, "compare");
+    if (with != "exact" && with != "all")
+      throw UsageError("--compare: '" + with + "' is neither exact nor all");
+    request.compare_all = with == "all";
+    if (exact && !request.compare_all)
+      throw UsageError("--compare exact needs another back end than --distance exact");
     request.compare = true;
   }
-  request.needs_nodes = !exact || has(values, "nodes-ply");
-  for (const char* name : {"radius", "spacing"}) {
+  request.needs_nodes = !exact || request.compare || has(values, "nodes-ply");
+  const std::pair<const char*, std::optional<Length>*> lengths[] = {
+      {"radius", &request.radius}, {"spacing", &request.spacing}, {"sigma", &request.sigma}};
+  for (const auto& [name, length] : lengths) {
     if (!has(values, name)) continue;
-    const Length length = parse_length(std::string("--") + name, text_of(values, name));
-    (std::string(name) == "radius" ? request.radius : request.spacing) = length;
-    request.needs_atlas |= length.unit == Length::Unit::texel;
+    *length = parse_length(std::string("--") + name, text_of(values, name));
+    request.needs_atlas |= (*length)->unit == Length::Unit::texel;
   }
   if (request.spacing && !request.needs_nodes)
     throw UsageError("--spacing: --distance exact needs no nodes, unless --nodes-ply writes them");
+  if (request.sigma && !request.compare) throw UsageError("--sigma is of use only with --compare");
   request.needs_atlas |= has(values, "texture");
   const bool has_size = has(values, "atlas") || has(values, "resolution");
   if (has_size && !request.needs_atlas)
@@ -159,27 +170,6 @@ void write_nodes(const std::string& path, const TriangleMesh& mesh, const NodeMe
   write_ply(path, columns, nodes.faces, {"nodes with geodesic distances by onmesh"});
 }
 
-void print_error(const DistanceError& error, const std::string& backend, double sigma) {
-  std::cout << "error of " << backend << " against exact at " << format_count(error.points)
-            << " nodes";
-  if (error.missed > 0) std::cout << " (" << format_count(error.missed) << " more not reached)";
-  std::cout << '\n';
-  const std::pair<const char*, double> rows[] = {
-      {"mean", error.mean}, {"p99", error.p99}, {"max", error.max}};
-  for (const auto& [name, value] : rows) {
-    std::string line = std::string("  ") + name;
-    line.resize(8, ' ');
-    line += format_number(value);
-    if (std::isfinite(sigma)) {
-      line.resize(22, ' ');
-      line += format_number(value / sigma) + " sigma";
-    }
-    std::cout << line << '\n';
-  }
-  if (std::isfinite(sigma))
-    std::cout << "with sigma = radius / 2.5 = " << format_number(sigma) << '\n';
-}
-
 class Stopwatch {
  public:
   double lap() {
@@ -197,16 +187,6 @@ nlohmann::json to_json(const DistanceSource& source, const TriangleMesh& mesh) {
   json["position"] = {p.x(), p.y(), p.z()};
   json["barycentric"] = {b.x(), b.y(), b.z()};
   json["off_surface"] = source.off_surface;
-  return json;
-}
-
-nlohmann::json to_json(const DistanceError& error, double sigma) {
-  nlohmann::json json = {{"points", error.points}, {"missed", error.missed}, {"mean", error.mean},
-                         {"p99", error.p99},       {"max", error.max},       {"sigma", nullptr}};
-  for (const char* name : {"mean", "p99", "max"})
-    json[std::string(name) + "_in_sigma"] =
-        std::isfinite(sigma) ? nlohmann::json(json[name].get<double>() / sigma) : nlohmann::json();
-  if (std::isfinite(sigma)) json["sigma"] = sigma;
   return json;
 }
 
@@ -254,13 +234,22 @@ int run_distance(const std::vector<std::string>& arguments) {
   // Nodes start with the mesh's vertices.
   std::vector<SurfacePoint> places = surface.nodes.nodes;
   if (exact && !request.needs_nodes) places = make_node_mesh(mesh).nodes;
-  auto distances = exact ? exact_distances(mesh, source, radius, places)
-                         : node_distances(mesh, surface, source, request.method, radius);
+  const auto exact_distances = [&] {
+    return NearbyGeodesics(mesh, radius).distances(source.point, places);
+  };
+  auto distances =
+      exact ? exact_distances() : node_distances(mesh, surface, source, request.method, radius);
   seconds["distance"] = watch.lap();
   check_interrupted();
+  const double sigma =
+      request.sigma ? resolve(*request.sigma, texel, mesh.diagonal()) : radius / 2.5;
   std::optional<DistanceError> error;
+  std::vector<ComparedBackend> compared;
   if (request.compare) {
-    error = distance_error(exact_distances(mesh, source, radius, places), distances);
+    const std::vector<double> truth = exact ? distances : exact_distances();
+    if (!exact) error = distance_error(truth, distances, sigma);
+    if (request.compare_all)
+      compared = compare_backends(mesh, surface, source, truth, radius, sigma);
     seconds["compare"] = watch.lap();
   }
   check_interrupted();
@@ -288,7 +277,6 @@ int run_distance(const std::vector<std::string>& arguments) {
     reached += i < vertices;
     farthest = std::max(farthest, distances[i]);
   }
-  const double sigma = radius / 2.5;
   if (flag_of(values, "json")) {
     nlohmann::json json = new_report("distance");
     json["mesh"] = path;
@@ -303,6 +291,7 @@ int run_distance(const std::vector<std::string>& arguments) {
     json["vertices_reached"] = reached;
     json["farthest"] = farthest;
     json["compare"] = error ? to_json(*error, sigma) : nlohmann::json();
+    json["compare_all"] = request.compare_all ? to_json(compared, sigma) : nlohmann::json();
     json["seconds"] = seconds;
     print_report(std::move(json));
     return 0;
@@ -320,7 +309,13 @@ int run_distance(const std::vector<std::string>& arguments) {
       std::cerr << "the point asked for is " << format_number(source.off_surface)
                 << " away from the surface\n";
   }
-  if (error) print_error(*error, backend, sigma);
+  const ErrorScale scale{
+      sigma, (request.sigma ? "sigma = " : "sigma = radius / 2.5 = ") + format_number(sigma)};
+  if (request.compare_all) {
+    print_table(compared, scale);
+  } else if (error) {
+    print_error(*error, backend, scale);
+  }
   return 0;
 }
 

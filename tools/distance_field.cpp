@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "onmesh/distance_error.h"
 #include "onmesh/projection.h"
 #include "onmesh/samples.h"
 
@@ -162,33 +163,6 @@ std::vector<double> node_distances(const TriangleMesh& mesh, const NodeSurface& 
   return distances;
 }
 
-std::vector<double> exact_distances(const TriangleMesh& mesh, const DistanceSource& source,
-                                    double radius, const std::vector<SurfacePoint>& points) {
-  // Only what paths of this length can touch: the exact algorithm knows no radius.
-  std::vector<bool> keep(mesh.faces.size(), false);
-  for (const Index f : grow_patch(make_node_mesh(mesh), {source.point.face}, radius).faces)
-    keep[f] = true;
-  std::vector<Index> number(mesh.faces.size(), kNone);
-  Index count = 0;
-  for (Index f = 0; f < keep.size(); ++f) {
-    if (keep[f]) number[f] = count++;
-  }
-  std::vector<SurfacePoint> inside;
-  std::vector<std::size_t> which;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (number[points[i].face] == kNone) continue;
-    inside.push_back({number[points[i].face], points[i].barycentric});
-    which.push_back(i);
-  }
-  ExactGeodesics geodesics(extract_faces(mesh, keep));
-  const std::vector<double> found =
-      geodesics.distances({number[source.point.face], source.point.barycentric}, inside);
-  std::vector<double> distances(points.size(), kNaN);
-  for (std::size_t i = 0; i < which.size(); ++i) distances[which[i]] = found[i];
-  forget_beyond(radius, distances);
-  return distances;
-}
-
 Image distance_texture(const TexelMap& map, const NodeSurface& surface,
                        const std::vector<double>& at_nodes, double radius) {
   Image image = empty_texture(map);
@@ -218,30 +192,12 @@ Image exact_distance_texture(const TriangleMesh& mesh, const TexelMap& map,
     for (Index c = map.face_offsets[f]; c < map.face_offsets[f + 1]; ++c)
       points.push_back({f, map.barycentric(f, map.claims[c])});
   }
-  const std::vector<double> distances = exact_distances(mesh, source, radius, points);
+  const std::vector<double> distances =
+      NearbyGeodesics(mesh, radius).distances(source.point, points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!std::isnan(distances[i])) take_least(image, map.texel(map.claims[i]), distances[i]);
   }
   return image;
-}
-
-DistanceError distance_error(const std::vector<double>& exact, const std::vector<double>& other) {
-  DistanceError result;
-  std::vector<double> errors;
-  for (std::size_t i = 0; i < exact.size(); ++i) {
-    if (std::isnan(exact[i])) continue;
-    if (std::isnan(other[i]))
-      ++result.missed;
-    else
-      errors.push_back(std::abs(exact[i] - other[i]));
-  }
-  result.points = errors.size();
-  if (errors.empty()) return result;
-  std::sort(errors.begin(), errors.end());
-  for (const double e : errors) result.mean += e / double(errors.size());
-  result.p99 = errors[std::size_t(std::ceil(0.99 * double(errors.size()))) - 1];
-  result.max = errors.back();
-  return result;
 }
 
 }  // namespace onmesh::tools

@@ -41,10 +41,6 @@ std::vector<double> node_distances(const TriangleMesh& mesh, const NodeSurface& 
 /// Distances beyond the radius become NaN.
 void forget_beyond(double radius, std::vector<double>& distances);
 
-/// Exact distances at any points of the mesh; NaN beyond the radius and where no way leads.
-std::vector<double> exact_distances(const TriangleMesh& mesh, const DistanceSource& source,
-                                    double radius, const std::vector<SurfacePoint>& points);
-
 /// Distance per texel (the least one where several places share it), interpolated from the nodes;
 /// NaN where no chart covers it or a corner's distance is not known.
 Image distance_texture(const TexelMap& map, const NodeSurface& surface,
@@ -52,13 +48,5 @@ Image distance_texture(const TexelMap& map, const NodeSurface& surface,
 /// The same, exact.
 Image exact_distance_texture(const TriangleMesh& mesh, const TexelMap& map,
                              const DistanceSource& source, double radius);
-
-/// Absolute differences where the exact distance is known.
-struct DistanceError {
-  std::size_t points = 0;  ///< compared
-  std::size_t missed = 0;  ///< where the exact distance is known and the other is not
-  double mean = 0, p99 = 0, max = 0;
-};
-DistanceError distance_error(const std::vector<double>& exact, const std::vector<double>& other);
 
 }  // namespace onmesh::tools

@@ -35,6 +35,7 @@ class Submesh {
 
   void set_source(const SurfacePoint& point) {
     paths_->remove_all_source_points();
+    source_ = point;
     const Place place = locate(point);
     if (place.vertex)
       paths_->add_source_point(*place.vertex);
@@ -45,6 +46,9 @@ class Submesh {
 
   // Infinity where no path leads, or outside the submesh.
   double distance(const SurfacePoint& point) {
+    // Within the source's face CGAL 5.5 detours, or finds nothing at all, where the straight line
+    // would run on into a corner.
+    if (point.face == source_.face) return (mesh_.position(point) - mesh_.position(source_)).norm();
     if (face_of_[point.face] == Surface::null_face()) return kInfinity;
     const Place place = locate(point);
     const auto result = place.vertex ? paths_->shortest_distance_to_source_points(*place.vertex)
@@ -114,6 +118,7 @@ class Submesh {
   std::vector<Index> slot_;                   // per input face: index into vertices_
   std::vector<std::array<Surface::Vertex_index, 3>> vertices_;
   std::optional<Paths> paths_;
+  SurfacePoint source_;
 };
 
 class Exact final : public DistanceBackend {

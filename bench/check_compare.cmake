@@ -1,0 +1,55 @@
+# Runs PROGRAM --quick with its files in WORK and checks that they are complete: every back end has a
+# row per mesh, and every row has the numbers it should have.
+# cmake -DPROGRAM=... -DWORK=... -P check_compare.cmake
+
+cmake_minimum_required(VERSION 3.25)
+
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+execute_process(
+  COMMAND ${PROGRAM} --quick --csv ${WORK}/rows.csv --markdown ${WORK}/tables.md --plots ${WORK}
+  COMMAND_ERROR_IS_FATAL ANY)
+
+file(STRINGS ${WORK}/rows.csv rows)
+list(POP_FRONT rows header)
+set(number "-?[0-9][0-9.]*(e[-+][0-9]+)?")
+# mesh, backend, 17 numbers that all have; 4 more of time and memory; why it was skipped.
+if(NOT header MATCHES "^mesh,backend(,[a-z0-9_]+)+,refine_ms,us_per_source,prepare_us,memory_mb,skipped$")
+  message(FATAL_ERROR "unexpected columns: ${header}")
+endif()
+foreach(mesh cube book)
+  foreach(backend exact unfold heat Euclidean)
+    set(found ${rows})
+    list(FILTER found INCLUDE REGEX "^${mesh},${backend},")
+    list(LENGTH found count)
+    if(NOT count EQUAL 1)
+      message(FATAL_ERROR "${count} rows for ${backend} on the ${mesh}")
+    endif()
+    string(REPLACE "," ";" fields "${found}")
+    list(LENGTH fields length)
+    if(NOT length EQUAL 24)
+      message(FATAL_ERROR "${length} fields: ${found}")
+    endif()
+    set(last 18)
+    if(backend STREQUAL "unfold" OR backend STREQUAL "heat")
+      set(last 22)
+    endif()
+    foreach(i RANGE 2 ${last})
+      list(GET fields ${i} field)
+      if(NOT field MATCHES "^${number}$")
+        message(FATAL_ERROR "field ${i} is '${field}', no finite number: ${found}")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+
+foreach(name errors psnr times)
+  file(READ ${WORK}/backend-${name}.svg plot)
+  if(NOT plot MATCHES "^<svg .*<polyline .*</svg>\n$" OR plot MATCHES "nan|inf[^o]")
+    message(FATAL_ERROR "${name}.svg is not a plot of numbers")
+  endif()
+endforeach()
+file(READ ${WORK}/tables.md tables)
+if(NOT tables MATCHES "\n[|] cube [|].*\n[|] unfold [|]")
+  message(FATAL_ERROR "tables.md lacks its tables")
+endif()

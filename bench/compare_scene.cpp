@@ -1,0 +1,166 @@
+#include "compare_scene.h"
+
+#include <tbb/parallel_for.h>
+#include <time.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "../tests/closed_forms.h"
+#include "onmesh/classify.h"
+#include "onmesh/distance_error.h"
+#include "onmesh/error.h"
+#include "onmesh/mesh_io.h"
+#include "onmesh/pattern.h"
+#include "onmesh/shapes.h"
+
+namespace onmesh::compare {
+namespace {
+
+constexpr double kSigmaRange = 0.2;
+
+Distances exact_truth(const TriangleMesh& mesh, double radius) {
+  const auto geodesics = std::make_shared<NearbyGeodesics>(mesh, radius);
+  return [geodesics](const SurfacePoint& source, const std::vector<SurfacePoint>& targets) {
+    return geodesics->distances(source, targets);
+  };
+}
+
+/// A mesh that does not depend on the node spacing.
+Subject subject(std::string name, int size, TriangleMesh mesh,
+                std::function<Distances(const TriangleMesh&, double)> truth = exact_truth) {
+  return {std::move(name), size, [mesh = std::move(mesh)](double) { return mesh; },
+          std::move(truth)};
+}
+
+/// Pages of squares of about the node spacing.
+Subject book(int size) {
+  const auto make = [size](double node_texels) {
+    const TriangleMesh coarse = make_book(1);
+    const double texel = make_texel_map(coarse, size, size).median_texel_size();
+    return make_book(std::max(1, int(std::ceil(1 / (node_texels * texel)))));
+  };
+  return {"book", size, make,
+          [](const TriangleMesh& mesh, double) { return book_distances(mesh); }};
+}
+
+/// Nodes of the filter's refinement; the mesh's own vertices where it is not manifold.
+NodeSurface make_nodes(const TriangleMesh& mesh, const RefineOptions& options) {
+  if (classify(mesh).manifold()) return refine(mesh, make_half_edge_mesh(mesh), options);
+  NodeSurface surface;
+  surface.nodes = make_node_mesh(mesh);
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    surface.overlay.face_offsets.push_back(f);
+    surface.overlay.pieces.push_back({f, Eigen::Matrix3d::Identity()});
+  }
+  surface.overlay.face_offsets.push_back(Index(mesh.faces.size()));
+  return surface;
+}
+
+std::vector<NodePoint> places_of_texels(const Samples& samples, std::size_t texels) {
+  std::vector<NodePoint> places(texels);
+  std::vector<bool> seen(texels, false);
+  for (Index f = 0; f + 1 < samples.face_offsets.size(); ++f) {
+    for (Index i = samples.face_offsets[f]; i < samples.face_offsets[f + 1]; ++i) {
+      const Sample& s = samples.samples[i];
+      places[s.texel] = seen[s.texel] ? NodePoint{} : NodePoint{f, {1.0 - s.b1 - s.b2, s.b1, s.b2}};
+      seen[s.texel] = true;
+    }
+  }
+  return places;
+}
+
+/// Random samples of different texels that nothing else claims. Where there are few of those, some
+/// tries fail, and fewer are chosen.
+std::vector<std::size_t> choose_centres(const Scene& scene, std::size_t count) {
+  const std::vector<Index> overlapped = scene.setup.map.overlapped();
+  std::vector<bool> taken(scene.setup.map.coverage.size(), false);
+  for (const Index texel : overlapped) taken[texel] = true;
+  std::vector<std::size_t> centres;
+  std::mt19937 random(42);
+  for (std::size_t i = 0; i < 100 * count && centres.size() < count; ++i) {
+    const std::size_t x = random() % scene.points.points.size();
+    const Index texel = scene.points.texels[x];
+    if (taken[texel]) continue;
+    taken[texel] = true;
+    centres.push_back(x);
+  }
+  return centres;
+}
+
+}  // namespace
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+Weights Scene::weights(FilterKind kind) const {
+  return {kind, sigma(), sigma() * (kind == FilterKind::bilateral ? 2.5 : 3.0), kSigmaRange};
+}
+
+std::vector<Subject> built_in_subjects(bool quick) {
+  const auto flat = [](const TriangleMesh& mesh, double) { return sheet_distances(mesh); };
+  const auto cone = [](const TriangleMesh& mesh, double) { return cone_distances(mesh, 270); };
+  if (quick) return {subject("cube", 64, make_cube(1)), book(64)};
+  // The leaves of the sheet are two texels apart, less than the nodes are.
+  return {subject("U-sheet", 128, make_u_sheet(0.5, 1, 2.0 / 128), flat),
+          subject("cone", 128, make_cone(270, 36, 4), cone),
+          subject("cube", 256, make_cube(1)),
+          subject("sphere", 192, make_sphere(3)),
+          subject("torus", 192, make_torus(32, 16)),
+          subject("saddle", 128, make_saddle(16)),
+          subject("blob", 192, make_blob(3, 1)),
+          book(256)};
+}
+
+Subject subject_from_file(const std::string& path, int size) {
+  return {std::filesystem::path(path).stem().string(), size,
+          [path](double) { return read_mesh(path); },
+          [path](const TriangleMesh& mesh, double radius) {
+            if (!classify(mesh).manifold())
+              throw InputError(path + ": not manifold, so exact distances are not known");
+            return exact_truth(mesh, radius);
+          }};
+}
+
+Scene make_scene(const Subject& subject, double sigma_texels, std::size_t texels) {
+  Scene scene;
+  scene.name = subject.name;
+  scene.sigma_texels = sigma_texels;
+  const NodeSpacing in_texels = node_spacing_for(sigma_texels, 1);
+  scene.texture = make_texture(subject.size, subject.size, Pattern::checker, 0.3, 7);
+  FilterOptions options;
+  options.sigma_spatial = {sigma_texels, Length::Unit::texel};
+  options.sigma_range = kSigmaRange;
+  scene.setup = set_up_filter(subject.make(in_texels.smooth), scene.texture, options);
+  const TriangleMesh& mesh = scene.setup.mesh;
+
+  scene.points = texel_points(mesh, scene.setup.map);
+  const std::vector<std::size_t> centres = choose_centres(scene, texels);
+  if (centres.empty()) throw InputError(subject.name + ": several places claim every texel");
+  scene.tried_at.assign(scene.setup.map.coverage.size(), kNone);
+  for (std::size_t i = 0; i < centres.size(); ++i)
+    scene.tried_at[scene.points.texels[centres[i]]] = Index(i);
+
+  RefineOptions refine_options;
+  refine_options.spacing = scene.setup.plan.node_spacing;
+  refine_options.finest = scene.setup.plan.finest_spacing;
+  const double start = thread_seconds();
+  scene.surface = make_nodes(mesh, refine_options);
+  scene.refine_seconds = thread_seconds() - start;
+  scene.samples = texel_samples(scene.setup.map, scene.surface);
+  scene.places = places_of_texels(scene.samples, scene.setup.map.coverage.size());
+
+  scene.truth_on = subject.truth;
+  const double radius = scene.weights(FilterKind::gaussian).radius;
+  const Distances distances = scene.truth(radius * (1 + 1e-5));
+  scene.tried.resize(centres.size());
+  tbb::parallel_for(std::size_t(0), centres.size(), [&](std::size_t i) {
+    scene.tried[i] = neighbourhood(scene.points, centres[i], radius, distances);
+  });
+  return scene;
+}
+
+}  // namespace onmesh::compare
