@@ -16,6 +16,9 @@ namespace onmesh {
 
 enum class FilterKind { bilateral, gaussian };
 enum class SampleKind { texel, poisson };
+/// How the sums are evaluated: sample by sample, or on the nodes (node_kernel.h), or on the nodes
+/// wherever that is faster and within the tolerance.
+enum class FilterMethod { automatic, direct, nodes };
 enum class Overlap { average, first, error };
 
 struct FilterOptions {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "onmesh/kernel_gather.h"
+
 namespace onmesh {
 namespace {
 
@@ -130,13 +132,6 @@ float survey(const KernelInput& input, NodeWork& work) {
 }
 
 }  // namespace
-
-bool is_usable(const float* colour, int channels, float scale) {
-  // Scaled colours beyond this would overflow when squared and summed.
-  constexpr float kLargest = 1e15F;
-  return std::all_of(colour, colour + channels,
-                     [scale](float c) { return std::abs(c * scale) < kLargest; });
-}
 
 void gather(const KernelInput& input, const Subnodes& subnodes, const KernelOptions& options,
             NodeWork& work, std::vector<float>& out) {

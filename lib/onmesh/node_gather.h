@@ -57,7 +57,4 @@ struct NodeKernelState {
 void gather(const KernelInput& input, const Subnodes& subnodes, const KernelOptions& options,
             NodeWork& work, std::vector<float>& out);
 
-/// A texel's values can be summed: finite, and small enough to be squared once scaled.
-bool is_usable(const float* colour, int channels, float scale);
-
 }  // namespace onmesh
