@@ -31,11 +31,13 @@ double target_weight(double targets, bool by_nodes, double targets_per_square_si
                   std::clamp(targets / 32, 2048.0, 524288.0));
 }
 
-/// Whether it is worth evaluating on nodes.
+/// Whether it is worth evaluating on nodes. Direct sums that take no time to speak of are better.
 bool choose_nodes(const PatchWork& work, const CheckedNodes::Size& size) {
   if (work.method != FilterMethod::automatic) return work.method == FilterMethod::nodes;
-  return CheckedNodes::cost_of_nodes(size, work.kernel, work.colours.channels) <
-         CheckedNodes::cost_of_sums(size, work.kernel);
+  constexpr double kNoTime = 2e9;
+  const double sums = CheckedNodes::cost_of_sums(size, work.kernel);
+  return sums > kNoTime &&
+         CheckedNodes::cost_of_nodes(size, work.kernel, work.colours.channels) < 0.5 * sums;
 }
 
 class PatchFilter {
