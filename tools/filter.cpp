@@ -41,6 +41,12 @@ Command make_command() {
   add("radius", text(),
       "length: how far samples count (default: 2.5 sigma bilateral, 3 sigma gaussian)");
   add("distance", text("auto"), "how distances are computed: auto, unfold, heat or exact");
+  add("method", text("auto"),
+      "how the sums are done: direct (pair by pair), nodes (at a cost per texel that does not "
+      "depend on sigma), or auto: nodes where that is faster and within the tolerance");
+  add("tolerance", text(),
+      "auto, nodes: most RMS difference to the direct sums, as a share of the texture's range of "
+      "values; measured on some texels of every patch (default: 1/512)");
   add("node-spacing", text(), "length between the nodes of the distance table (default: by sigma)");
   add("samples", text("texel"),
       "texel (every texel once) or poisson (random points of even density)");
@@ -79,6 +85,9 @@ void refuse_ignored(const po::variables_map& values, const FilterOptions& option
   if (options.kind == FilterKind::gaussian && given(values, "sigma-range")) {
     throw UsageError("--sigma-range: only with --kind bilateral");
   }
+  if (options.method == FilterMethod::direct && given(values, "tolerance")) {
+    throw UsageError("--tolerance: not with --method direct");
+  }
   for (const char* name : {"spacing", "r-coef", "seed"}) {
     if (options.samples != SampleKind::poisson && given(values, name)) {
       throw UsageError(std::string("--") + name + ": only with --samples poisson");
@@ -96,12 +105,19 @@ FilterOptions filter_options(const po::variables_map& values) {
   options.overlap = choice<Overlap>(
       values, "overlap",
       {{"average", Overlap::average}, {"first", Overlap::first}, {"error", Overlap::error}});
+  options.method = choice<FilterMethod>(values, "method",
+                                        {{"auto", FilterMethod::automatic},
+                                         {"direct", FilterMethod::direct},
+                                         {"nodes", FilterMethod::nodes}});
   refuse_ignored(values, options);
   const auto length = [&](const std::string& name) {
     return parse_length("--" + name, text_of(values, name));
   };
   options.sigma_spatial = length("sigma-spatial");
   options.sigma_range = parse_number("--sigma-range", text_of(values, "sigma-range"));
+  if (has(values, "tolerance")) {
+    options.tolerance = parse_number("--tolerance", text_of(values, "tolerance"));
+  }
   if (has(values, "radius")) options.radius = length("radius");
   if (has(values, "spacing")) options.spacing = length("spacing");
   if (has(values, "r-coef")) options.r_coef = parse_number("--r-coef", text_of(values, "r-coef"));
@@ -155,6 +171,13 @@ json report_json(const FilterReport& report) {
   }
   return {
       {"backend", {{"name", report.backend}, {"reason", report.backend_reason}}},
+      {"method",
+       {{"name", report.method},
+        {"texels_by_nodes", report.by_nodes},
+        {"palette", report.palette},
+        {"checked_values", report.checked},
+        {"rms_error", report.rms_error},
+        {"max_error", report.max_error}}},
       {"instruction_set", report.instruction_set},
       {"lengths",
        {{"sigma_spatial", report.sigma_spatial},
@@ -204,13 +227,22 @@ void print_plan(const FilterPlan& plan, const Image& texture, std::ostream& out)
 }
 
 void print_summary(const FilterReport& report, double seconds, std::ostream& out) {
-  out << format_count(report.texels) << " texels filtered, "
-      << format_count(report.texels > 0 ? report.pairs / report.texels : 0)
-      << " samples each on average, in " << format_seconds(seconds) << '\n'
+  out << format_count(report.texels) << " texels filtered in " << format_seconds(seconds) << '\n'
       << "sigma " << length_text(report.sigma_spatial, report.texel_size) << ", radius "
       << length_text(report.radius, report.texel_size) << "; " << format_count(report.nodes)
       << " nodes in " << format_count(report.patches) << " patches, distances: " << report.backend
       << " (" << report.backend_reason << ")\n";
+  const std::uint64_t direct = report.texels - report.by_nodes;
+  if (direct > 0) {
+    out << format_count(direct) << " texels by " << format_count(report.pairs / direct)
+        << " samples each on average\n";
+  }
+  if (report.by_nodes > 0) {
+    out << format_count(report.by_nodes) << " texels by nodes";
+    if (report.palette > 0) out << ", at most " << report.palette << " colours";
+    out << "; of " << format_count(report.checked) << " values checked, RMS error "
+        << number_text(report.rms_error) << ", largest " << number_text(report.max_error) << '\n';
+  }
   for (const StageTime& stage : report.stages) {
     out << "  " << stage.stage
         << std::string(14 - std::min<std::size_t>(stage.stage.size(), 13), ' ')

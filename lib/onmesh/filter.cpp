@@ -119,6 +119,16 @@ class Results {
     shared_values_.resize(shared_.size() * channels_.size());
   }
 
+  /// Of all colour channels: the largest less the smallest value; 1 if all are equal.
+  double range() const {
+    float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+      low = std::min(low, lowest_[c]);
+      high = std::max(high, highest_[c]);
+    }
+    return high > low ? double(high) - low : 1;
+  }
+
   void store(Index target, const float* values) {
     const auto at = std::lower_bound(shared_.begin(), shared_.end(), target);
     if (at != shared_.end() && *at == target) {
@@ -210,6 +220,16 @@ void refuse_long_runs(const PatchWork& work) {
   }
 }
 
+void note_method(const NodeCheck& nodes, FilterReport& report) {
+  const std::uint64_t direct = report.texels - nodes.targets + nodes.direct;
+  report.method = nodes.targets == 0 ? "direct" : direct == 0 ? "nodes" : "nodes and direct";
+  report.by_nodes = nodes.targets - nodes.direct;
+  report.checked = nodes.checked;
+  report.palette = nodes.colours;
+  if (nodes.checked > 0) report.rms_error = std::sqrt(nodes.squared_error / double(nodes.checked));
+  report.max_error = nodes.largest_error;
+}
+
 Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& options,
           FilterReport& report, const Progress& progress) {
   Stages stages(report, progress);
@@ -272,6 +292,8 @@ Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& o
   if (options.distance == DistanceMethod::exact) refuse_long_runs(work);
   {
     Results results(texture, setup.map, sources, targets, image);
+    work.method = options.method;
+    work.tolerance = options.tolerance * results.range();
     const PatchCounts counts = filter_patches(
         work, [&](Index target, const float* values) { results.store(target, values); },
         [&](double done) { stages.advance(done); });
@@ -280,6 +302,7 @@ Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& o
     report.pairs = counts.pairs;
     report.without_sample = counts.without_sample;
     report.table_rows = counts.table_rows;
+    note_method(counts.nodes, report);
     report.table_cpu_seconds = counts.table_cpu_seconds;
     report.kernel_cpu_seconds = counts.kernel_cpu_seconds;
   }

@@ -16,6 +16,9 @@ namespace onmesh {
 
 enum class FilterKind { bilateral, gaussian };
 enum class SampleKind { texel, poisson };
+/// How the sums are evaluated: sample by sample, or on the nodes (node_kernel.h), or on the nodes
+/// wherever that is faster and within the tolerance.
+enum class FilterMethod { automatic, direct, nodes };
 enum class Overlap { average, first, error };
 
 struct FilterOptions {
@@ -24,6 +27,10 @@ struct FilterOptions {
   double sigma_range = 0.1;                      ///< value units, > 0; bilateral only
   std::optional<Length> radius;  ///< default 2.5 sigma (bilateral), 3 sigma (Gaussian)
   DistanceMethod distance = DistanceMethod::automatic;
+  FilterMethod method = FilterMethod::automatic;
+  /// Most RMS difference to the direct sum where the nodes are used, as a share of the texture's
+  /// range of values, > 0.
+  double tolerance = 1.0 / 512;
   SampleKind samples = SampleKind::texel;
   std::optional<Length> spacing;       ///< Poisson spacing; default: every texel is hit
   std::optional<double> r_coef;        ///< Poisson spacing in mean edge lengths, > 0
@@ -59,11 +66,17 @@ struct FilterReport {
   /// Mesh units; sample_spacing in Poisson mode only.
   double sigma_spatial = 0, radius = 0, node_spacing = 0, sample_spacing = 0, texel_size = 0;
   std::uint64_t texels = 0, samples = 0, nodes = 0, node_faces = 0, patches = 0;
-  std::uint64_t pairs = 0;           ///< (target, sample) pairs within the radius
+  std::uint64_t pairs = 0;           ///< (target, sample) pairs summed one by one
   std::uint64_t table_rows = 0;      ///< nodes that distances were computed from, all patches
   std::uint64_t overlapped = 0;      ///< texels claimed more than once
   std::uint64_t gutter = 0;          ///< texels filled around the charts
   std::uint64_t without_sample = 0;  ///< targets that kept their values
+  /// "direct", "nodes" or "nodes and direct", and what the check of the nodes found.
+  std::string method;
+  std::uint64_t by_nodes = 0;           ///< targets evaluated on nodes
+  std::uint64_t checked = 0;            ///< values among theirs that were compared with direct sums
+  int palette = 0;                      ///< most colours of a patch's palette (bilateral)
+  double rms_error = 0, max_error = 0;  ///< of the values compared, value units
   double table_cpu_seconds = 0, kernel_cpu_seconds = 0;  ///< summed over threads
   std::vector<StageTime> stages;
   std::vector<std::string> warnings;

@@ -23,16 +23,33 @@ double thread_seconds() {
 }
 
 /// Targets per patch. Large cores waste less: nodes between patches and halos are computed again by
-/// each of them. But all threads need patches to the end, and tables should stay in the cache.
-double target_weight(double targets) { return std::clamp(targets / 128, 2048.0, 8192.0); }
+/// each of them. But all threads need patches to the end, and tables should stay in the cache. By
+/// nodes the halo costs as much as the core, which should be large beside sigma.
+double target_weight(double targets, bool by_nodes, double targets_per_square_sigma) {
+  if (!by_nodes) return std::clamp(targets / 128, 2048.0, 8192.0);
+  return std::min(std::max(256 * targets_per_square_sigma, 8192.0),
+                  std::clamp(targets / 32, 2048.0, 524288.0));
+}
+
+/// Whether it is worth evaluating on nodes. Direct sums that take no time to speak of are better.
+bool choose_nodes(const PatchWork& work, const CheckedNodes::Size& size) {
+  if (work.method != FilterMethod::automatic) return work.method == FilterMethod::nodes;
+  constexpr double kNoTime = 2e9;
+  const double sums = CheckedNodes::cost_of_sums(size, work.kernel);
+  return sums > kNoTime &&
+         CheckedNodes::cost_of_nodes(size, work.kernel, work.colours.channels) < 0.5 * sums;
+}
 
 class PatchFilter {
  public:
-  PatchFilter(const PatchWork& work, const std::function<void(Index, const float*)>& store)
+  PatchFilter(const PatchWork& work, bool by_nodes,
+              const std::function<void(Index, const float*)>& store)
       : work_(work),
         store_(store),
         longest_edge_(work.nodes->longest_edge()),
-        kernel_(work.kernel) {}
+        by_nodes_(by_nodes),
+        kernel_(work.kernel),
+        nodes_(work.kernel, work.tolerance, work.method == FilterMethod::nodes) {}
 
   /// Filter the targets of the core faces.
   void run(const std::vector<Index>& core, PatchCounts& counts) {
@@ -49,8 +66,14 @@ class PatchFilter {
     }
     work_.backend->fill(patch, reach, table_);
     const double filled = thread_seconds();
-    const KernelCounts kernel =
-        kernel_.run({&patch, &table_, work_.sources, work_.targets, work_.colours}, values_);
+    const KernelInput input{&patch, &table_, work_.sources, work_.targets, work_.colours, nullptr};
+    KernelCounts kernel;
+    NodeCheck check;
+    if (by_nodes_ && nodes_.run(input, kernel_, values_, kernel, check)) {
+      counts.nodes.add(check);
+    } else {
+      kernel = kernel_.run(input, values_);
+    }
     const float* values = values_.data();
     for (Index f = 0; f < patch.core_faces; ++f) {
       const Index begin = work_.targets->face_offsets[patch.faces[f]];
@@ -87,58 +110,67 @@ class PatchFilter {
   const PatchWork& work_;
   const std::function<void(Index, const float*)>& store_;
   const double longest_edge_;
+  const bool by_nodes_;
   Kernel kernel_;
+  CheckedNodes nodes_;
   DistanceTable table_;
   std::vector<float> values_;
 };
 
 }  // namespace
 
+void PatchCounts::add(const PatchCounts& other) {
+  patches += other.patches;
+  pairs += other.pairs;
+  without_sample += other.without_sample;
+  table_rows += other.table_rows;
+  table_cpu_seconds += other.table_cpu_seconds;
+  kernel_cpu_seconds += other.kernel_cpu_seconds;
+  nodes.add(other.nodes);
+}
+
 PatchCounts filter_patches(const PatchWork& work,
                            const std::function<void(Index, const float*)>& store,
                            const std::function<void(double)>& progress) {
   const NodeMesh& nodes = *work.nodes;
   std::vector<double> weights(nodes.faces.size());
-  for (std::size_t f = 0; f < weights.size(); ++f) {
+  CheckedNodes::Size size;
+  size.nodes = double(nodes.nodes.size());
+  size.samples = double(work.sources->samples.size());
+  size.targets = double(work.targets->samples.size());
+  for (Index f = 0; f < weights.size(); ++f) {
     weights[f] = work.targets->face_offsets[f + 1] - work.targets->face_offsets[f];
+    if (weights[f] > 0) size.area += nodes.face_area(f);
   }
-  const auto targets = double(work.targets->samples.size());
-  const std::vector<std::vector<Index>> cores =
-      partition_faces(nodes, weights, target_weight(targets));
+  const bool by_nodes = choose_nodes(work, size);
+  const double sigma = work.kernel.sigma_spatial;
+  const std::vector<std::vector<Index>> cores = partition_faces(
+      nodes, weights,
+      target_weight(size.targets, by_nodes, sigma * sigma * size.targets / size.area));
 
-  struct ThreadState {
-    PatchFilter filter;
-    PatchCounts counts;
-  };
-  tbb::enumerable_thread_specific<ThreadState> states([&] {
-    return ThreadState{PatchFilter(work, store), {}};
-  });
+  tbb::enumerable_thread_specific<PatchFilter> filters(
+      [&] { return PatchFilter(work, by_nodes, store); });
+  // Summed in the end, so that sums don't depend on the threads.
+  std::vector<PatchCounts> counts(cores.size());
   std::mutex progress_mutex;
   double done = 0;
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, cores.size(), 1),
       [&](const tbb::blocked_range<std::size_t>& range) {
-        ThreadState& state = states.local();
+        PatchFilter& filter = filters.local();
         for (std::size_t k = range.begin(); k != range.end(); ++k) {
-          state.filter.run(cores[k], state.counts);
+          filter.run(cores[k], counts[k]);
           double weight = 0;
           for (const Index f : cores[k]) weight += weights[f];
           const std::lock_guard lock(progress_mutex);
           done += weight;
-          if (progress) progress(done / targets);
+          if (progress) progress(done / size.targets);
         }
       },
       tbb::simple_partitioner());
 
   PatchCounts sum;
-  for (const ThreadState& state : states) {
-    sum.patches += state.counts.patches;
-    sum.pairs += state.counts.pairs;
-    sum.without_sample += state.counts.without_sample;
-    sum.table_rows += state.counts.table_rows;
-    sum.table_cpu_seconds += state.counts.table_cpu_seconds;
-    sum.kernel_cpu_seconds += state.counts.kernel_cpu_seconds;
-  }
+  for (const PatchCounts& c : counts) sum.add(c);
   return sum;
 }
 
@@ -154,7 +186,7 @@ double estimate_table_seconds(const PatchWork& work) {
   if (face == kNone) return 0;
   PatchCounts counts;
   const std::function<void(Index, const float*)> nothing = [](Index, const float*) {};
-  PatchFilter(work, nothing).run({face}, counts);
+  PatchFilter(work, false, nothing).run({face}, counts);
   // Nodes between patches are sources of each of them: about a third more.
   const auto sources = double(std::count(needed.begin(), needed.end(), true)) * 1.3;
   return counts.table_cpu_seconds / double(std::max<std::uint64_t>(counts.table_rows, 1)) * sources;

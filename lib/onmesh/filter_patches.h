@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "onmesh/checked_nodes.h"
 #include "onmesh/distance.h"
 #include "onmesh/filter.h"
 #include "onmesh/kernel.h"
@@ -17,11 +18,16 @@ struct PatchWork {
   const Samples* targets = nullptr;
   Colours colours;
   KernelOptions kernel;
+  FilterMethod method = FilterMethod::direct;
+  double tolerance = 0;  ///< value units, > 0; not for FilterMethod::direct
 };
 
 struct PatchCounts {
   std::uint64_t patches = 0, pairs = 0, without_sample = 0, table_rows = 0;
   double table_cpu_seconds = 0, kernel_cpu_seconds = 0;
+  NodeCheck nodes;
+
+  void add(const PatchCounts& other);
 };
 
 /// Filter all targets. How they are grouped into patches does not depend on the number of threads.

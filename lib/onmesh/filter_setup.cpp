@@ -25,6 +25,7 @@ void check_options(const TriangleMesh& mesh, const FilterOptions& options) {
   if (options.spacing) require_positive("--spacing", options.spacing->value);
   if (options.r_coef) require_positive("--r-coef", *options.r_coef);
   if (options.node_spacing) require_positive("--node-spacing", options.node_spacing->value);
+  require_positive("--tolerance", options.tolerance);
   if (options.spacing && options.r_coef) {
     throw UsageError("--spacing and --r-coef exclude each other");
   }

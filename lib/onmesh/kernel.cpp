@@ -308,7 +308,7 @@ Kernel::Kernel(Kernel&&) noexcept = default;
 KernelCounts Kernel::run(const KernelInput& input, std::vector<float>& out) {
   gather(input, options_, *work_, out);
   KernelCounts counts = HWY_DYNAMIC_DISPATCH(run_patch)(input, *work_, out);
-  counts.without_sample += work_->slots - work_->targets.size();
+  counts.without_sample += work_->kept;
   return counts;
 }
 

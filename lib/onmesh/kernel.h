@@ -34,6 +34,9 @@ struct KernelInput {
   const Samples* sources = nullptr;  ///< what is summed over (by global face)
   const Samples* targets = nullptr;  ///< where the result is wanted (by global face)
   Colours colours;
+  /// Which targets to filter, per target in the order of the result; null: all. The others' results
+  /// are left as they are.
+  const std::vector<unsigned char>* only = nullptr;
 };
 
 struct KernelCounts {

@@ -8,17 +8,31 @@
 namespace onmesh {
 namespace {
 
-/// Scaled colours beyond this would overflow when squared and summed.
-constexpr float kLargest = 1e15F;
-
-bool usable(const float* colour, int channels, float scale) {
-  return std::all_of(colour, colour + channels,
-                     [scale](float c) { return std::abs(c * scale) < kLargest; });
-}
-
 Vec3 barycentric(const Sample& s) { return {1.0 - s.b1 - s.b2, s.b1, s.b2}; }
 
-void gather_samples(const KernelInput& input, double variance_scale, KernelWork& work) {
+/// Which faces of the patch can hold a sample within reach of one of the work's targets.
+std::vector<unsigned char> find_faces_near(const KernelInput& input, const KernelWork& work) {
+  const DistanceTable& table = *input.table;
+  std::vector<unsigned char> is_corner(table.rows, 0);
+  for (const KernelWork::Target& target : work.targets)
+    for (const Index corner : target.corners) is_corner[corner] = 1;
+  std::vector<float> nearest(table.columns, kUnreachable);
+  for (Index corner = 0; corner < table.rows; ++corner) {
+    if (!is_corner[corner]) continue;
+    const float* const row = table.row(corner);
+    for (Index n = 0; n < table.columns; ++n) nearest[n] = std::min(nearest[n], row[n]);
+  }
+  std::vector<unsigned char> is_near(input.patch->corners.size());
+  for (std::size_t f = 0; f < is_near.size(); ++f) {
+    const auto& n = input.patch->corners[f];
+    is_near[f] = std::max({nearest[n[0]], nearest[n[1]], nearest[n[2]]}) <= work.reach_squared;
+  }
+  return is_near;
+}
+
+/// \param is_needed per local face; empty: all are
+void gather_samples(const KernelInput& input, double variance_scale,
+                    const std::vector<unsigned char>& is_needed, KernelWork& work) {
   const Patch& patch = *input.patch;
   const Samples& sources = *input.sources;
   const Colours& colours = input.colours;
@@ -38,6 +52,7 @@ void gather_samples(const KernelInput& input, double variance_scale, KernelWork&
   std::size_t used = 0;
   float last_share = 1, log_area = 0;  // most neighbours stand for the same area
   for (std::size_t local = 0; local < patch.faces.size(); ++local) {
+    if (!is_needed.empty() && !is_needed[local]) continue;
     const Index f = patch.faces[local];
     KernelWork::Face face;
     face.corners = patch.corners[local];
@@ -47,7 +62,7 @@ void gather_samples(const KernelInput& input, double variance_scale, KernelWork&
       const float* const colour =
           colours.values + std::size_t(s.texel) * std::size_t(colours.stride);
       const float share = s.area / largest_area;
-      if (!(share > 0) || !usable(colour, work.channels, work.colour_scale)) continue;
+      if (!(share > 0) || !is_usable(colour, work.channels, work.colour_scale)) continue;
       if (share != last_share) {
         last_share = share;
         log_area = std::log2(share);
@@ -121,20 +136,24 @@ void gather_targets(const KernelInput& input, double variance_scale, KernelWork&
     first_slot[f + 1] =
         first_slot[f] + targets.face_offsets[global + 1] - targets.face_offsets[global];
   }
-  work.slots = first_slot.back();
-  out.resize(work.slots * std::size_t(work.channels));
+  work.kept = 0;
+  out.resize(first_slot.back() * std::size_t(work.channels));
   work.targets.clear();
   work.target_colours.clear();
-  work.targets.reserve(work.slots);
-  work.target_colours.reserve(out.size());
+  if (!input.only) {
+    work.targets.reserve(first_slot.back());
+    work.target_colours.reserve(out.size());
+  }
 
   for (const Index f : neighbourly_order(patch, targets)) {
     const Index begin = targets.face_offsets[patch.faces[f]];
     for (Index slot = first_slot[f]; slot < first_slot[f + 1]; ++slot) {
+      if (input.only && !(*input.only)[slot]) continue;
       const Sample& s = targets.samples[begin + slot - first_slot[f]];
       const float* colour = colours.values + std::size_t(s.texel) * std::size_t(colours.stride);
-      if (!usable(colour, work.channels, work.colour_scale)) {
+      if (!is_usable(colour, work.channels, work.colour_scale)) {
         std::copy_n(colour, work.channels, out.begin() + std::ptrdiff_t(slot) * work.channels);
+        ++work.kept;
         continue;
       }
       const Vec3 a = barycentric(s);
@@ -155,6 +174,13 @@ void gather_targets(const KernelInput& input, double variance_scale, KernelWork&
 }
 
 }  // namespace
+
+bool is_usable(const float* colour, int channels, float scale) {
+  // Scaled colours beyond this would overflow when squared and summed.
+  constexpr float kLargest = 1e15F;
+  return std::all_of(colour, colour + channels,
+                     [scale](float c) { return std::abs(c * scale) < kLargest; });
+}
 
 void gather(const KernelInput& input, const KernelOptions& options, KernelWork& work,
             std::vector<float>& out) {
@@ -177,8 +203,9 @@ void gather(const KernelInput& input, const KernelOptions& options, KernelWork& 
     work.range_channels = input.colours.range_channels;
     work.colour_scale = static_cast<float>(std::sqrt(half_log2e) / options.sigma_range);
   }
-  gather_samples(input, scale, work);
   gather_targets(input, scale, work, out);
+  gather_samples(input, scale,
+                 input.only ? find_faces_near(input, work) : std::vector<unsigned char>(), work);
 }
 
 }  // namespace onmesh

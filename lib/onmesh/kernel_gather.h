@@ -45,12 +45,15 @@ struct KernelWork {
   /// In an order in which neighbours in the list lie close to each other on the surface.
   std::vector<Target> targets;
   std::vector<float> target_colours;  ///< scaled, `channels` per target
-  std::size_t slots = 0;              ///< number of all targets, with those that keep their value
+  std::size_t kept = 0;               ///< number of targets that keep their value
 };
 
 /// Gather samples of all faces of the patch and targets of its core. Values that targets keep are
 /// written to `out`, which is resized. Buffers of `work` are used again.
 void gather(const KernelInput& input, const KernelOptions& options, KernelWork& work,
             std::vector<float>& out);
+
+/// A texel's values can be summed: finite, and small enough to be squared once scaled.
+bool is_usable(const float* colour, int channels, float scale);
 
 }  // namespace onmesh

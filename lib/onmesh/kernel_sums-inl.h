@@ -8,6 +8,7 @@
 
 #include <hwy/highway.h>
 
+#include "onmesh/exp2-inl.h"
 #include "onmesh/kernel_gather.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,28 +23,8 @@ using M = hn::Mask<D>;
 
 /// Exponent of lanes that must not count: far beyond any radius, but no infinity arithmetic.
 constexpr float kNever = -1e30F;
-/// Smallest exponent that is told from nothing, and the sum of weights that is nothing.
-constexpr float kSmallest = -126.0F;
+/// The sum of weights that is nothing.
 constexpr float kNothing = 1e-30F;
-
-/// 2^x with a relative error below 2.7e-6, for x in [-126, 127]; 2^-126 below.
-HWY_INLINE V exp2(D d, V x) {
-  const hn::RebindToSigned<D> di;
-  x = hn::Max(x, hn::Set(d, kSmallest));
-  // Adding 1.5 * 2^23 leaves the nearest integer in the low bits of the mantissa.
-  const V magic = hn::Set(d, 12582912.0F);
-  const V shifted = hn::Add(x, magic);
-  const V f = hn::Sub(x, hn::Sub(shifted, magic));
-  // Minimax polynomial of 2^f for relative error on [-1/2, 1/2].
-  V p = hn::Set(d, 0.009570102207362652F);
-  p = hn::MulAdd(p, f, hn::Set(d, 0.05591785907745361F));
-  p = hn::MulAdd(p, f, hn::Set(d, 0.240247443318367F));
-  p = hn::MulAdd(p, f, hn::Set(d, 0.6931217908859253F));
-  p = hn::MulAdd(p, f, hn::Set(d, 0.9999992847442627F));
-  // Multiply by 2^integer: add it to the exponent's bits.
-  const auto exponent = hn::ShiftLeft<23>(hn::BitCast(di, shifted));
-  return hn::BitCast(d, hn::Add(hn::BitCast(di, p), exponent));
-}
 
 /// The exponents of a block's targets over one face are linear in the sample's barycentrics:
 /// corner 0's, and the differences to it at the others.
@@ -73,24 +54,20 @@ HWY_INLINE const float* append(D d, const float* HWY_RESTRICT record, const floa
     x = hn::MulAdd(hn::Set(d, record[0]), e.to_corner1, x);
     x = hn::MulAdd(hn::Set(d, record[1]), e.to_corner2, x);
     const M inside = hn::Ge(x, hn::Set(d, record[4]));
-    x = hn::Min(x, hn::Set(d,
-                           record[3]));  // rounding must not
-                                         // make d^2 negative
+    // Rounding must not make d^2 negative.
+    x = hn::Min(x, hn::Set(d, record[3]));
     hn::Store(hn::IfThenElse(inside, x, never), d, list.exponents + size * lanes);
     list.records[size] = record;
     const std::size_t count = hn::CountTrue(d, inside);
     pairs += count;
-    size += count != 0;  // no branch: it would be
-                         // mispredicted too often
+    size += count != 0;  // no branch: it would be mispredicted too often
   }
   list.size = size;
   return record;
 }
 
-/// Sums over a list, up to 4 channels that
-/// all take part in the colour difference.
-/// The bilateral filter sums differences to
-/// the target's own colour.
+/// Sums over a list, up to 4 channels that all take part in the colour difference. The bilateral
+/// filter sums differences to the target's own colour.
 template <int kChannels, bool kRange>
 HWY_INLINE void add(D d, const NearList& list, const float* own, float* sums) {
   const std::size_t lanes = hn::Lanes(d);
@@ -121,9 +98,7 @@ HWY_INLINE void add(D d, const NearList& list, const float* own, float* sums) {
   }
 }
 
-/// The same for any number of channels:
-/// weights first, then one channel after the
-/// other.
+/// The same for any number of channels: weights first, then one channel after the other.
 HWY_INLINE void add_general(D d, const KernelWork& work, NearList& list, const float* own,
                             float* sums) {
   const std::size_t lanes = hn::Lanes(d);

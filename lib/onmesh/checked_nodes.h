@@ -1,0 +1,63 @@
+// The node kernel, held to the direct sum: checked on some texels of every patch, and replaced by
+// it where it is uncertain.
+#pragma once
+
+#include "onmesh/kernel.h"
+#include "onmesh/node_kernel.h"
+
+namespace onmesh {
+
+/// What the check of one or more patches found. Errors are differences to the direct sum.
+struct NodeCheck {
+  std::uint64_t targets = 0;  ///< evaluated on nodes
+  std::uint64_t direct = 0;   ///< targets among them that were summed directly after all
+  std::uint64_t checked = 0;  ///< values compared: targets picked at random times channels
+  double squared_error = 0;   ///< their sum
+  double largest_error = 0;   ///< of all values compared, also of the most uncertain targets
+  int colours = 0;            ///< the largest palette
+
+  void add(const NodeCheck& other);
+};
+
+class CheckedNodes {
+ public:
+  /// \param tolerance of the RMS error, in value units, > 0
+  /// \param always whether the node kernel is used also where the tolerance is not met
+  CheckedNodes(const KernelOptions& options, double tolerance, bool always);
+
+  /// Filter all targets in the patch's core faces.
+  ///
+  /// The RMS error is measured on up to 64 targets of two places, picked by a hash of the patch;
+  /// the palette grows from 16 colours until it is within the tolerance, up to 64. Targets with
+  /// little support (the weights of less than a few texels) are summed directly; of the others, the
+  /// 16 with the least are checked too, and if one is far off, more are summed directly. \param
+  /// kernel does the direct sums \return false if the patch is to be summed directly instead: its
+  /// nodes are too coarse, or the
+  ///   tolerance is not met
+  bool run(const KernelInput& input, Kernel& kernel, std::vector<float>& out, KernelCounts& counts,
+           NodeCheck& check);
+
+  /// Rough cost of filtering by nodes and directly, in nanoseconds of one core: what decides
+  /// whether it is worth trying.
+  struct Size {
+    double area = 0, nodes = 0, samples = 0, targets = 0;
+  };
+  static double cost_of_nodes(const Size& size, const KernelOptions& options, int channels);
+  static double cost_of_sums(const Size& size, const KernelOptions& options);
+
+ private:
+  void pick(const KernelInput& input);
+  double measure(const KernelInput& input, NodeCheck& check) const;
+  void settle_uncertain(const KernelInput& input, Kernel& kernel, std::vector<float>& out,
+                        KernelCounts& counts, NodeCheck& check);
+
+  NodeKernel nodes_;
+  const bool is_gaussian_;
+  const double tolerance_;
+  const bool always_;
+  std::vector<unsigned char> only_;
+  std::vector<Index> picked_;
+  std::vector<float> values_, sums_, support_;
+};
+
+}  // namespace onmesh
