@@ -16,43 +16,6 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-// Number of the midpoint of every edge of every face. Edges are identified by the gluing where the
-// mesh knows it, else by their nodes and lengths: that also joins edges of three or more faces.
-std::vector<std::array<Index, 3>> number_edges(const Patch& patch, Index& count) {
-  const Index faces = Index(patch.corners.size());
-  std::vector<std::array<Index, 3>> number(faces, {kNone, kNone, kNone});
-  struct Side {
-    Index low, high;
-    double length;
-    Index half_edge;
-  };
-  std::vector<Side> sides;
-  count = 0;
-  for (Index f = 0; f < faces; ++f)
-    for (Index k = 0; k < 3; ++k) {
-      if (number[f][k] != kNone) continue;
-      const Index across = patch.neighbours.empty() ? kNone : patch.neighbours[f][k];
-      if (across != kNone) {
-        number[f][k] = number[across / 3][across % 3] = count++;
-        continue;
-      }
-      const auto [low, high] = std::minmax(patch.corners[f][k], patch.corners[f][(k + 1) % 3]);
-      sides.push_back({low, high, patch.lengths[f][k], 3 * f + k});
-    }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.length, a.half_edge) <
-           std::tie(b.low, b.high, b.length, b.half_edge);
-  });
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const bool same = i > 0 && sides[i].low == sides[i - 1].low &&
-                      sides[i].high == sides[i - 1].high &&
-                      sides[i].length - sides[i - 1].length <= 1e-9 * sides[i].length;
-    if (!same) ++count;
-    number[sides[i].half_edge / 3][sides[i].half_edge % 3] = count - 1;
-  }
-  return number;
-}
-
 // Gradients of the hat functions on a triangle with these lengths.
 SplitFace make_face(const std::array<Index, 3>& corner, const std::array<double, 3>& l) {
   const double area = triangle_area(l[0], l[1], l[2]);
@@ -128,7 +91,7 @@ int most_hops(const Patch& patch) {
 }
 
 // Splits every face 1 -> 4; returns the mean edge length of the split patch.
-double split_faces(const Patch& patch, System& system) {
+double split_faces(const Patch& patch, const std::vector<float>& weights, System& system) {
   Index edges = 0;
   const auto middle = number_edges(patch, edges);
   const Index nodes = Index(patch.nodes.size());
@@ -142,6 +105,7 @@ double split_faces(const Patch& patch, System& system) {
     for (double& x : l) sum += x /= 2 * system.scale;
     // All four are similar to the face; the last is turned by 180 degrees.
     SplitFace face = make_face({c[0], m0, m2}, l);
+    if (!weights.empty()) face.area *= weights[f];
     for (const std::array<Index, 3>& corner : {std::array{c[0], m0, m2}, std::array{m0, c[1], m1},
                                                std::array{m2, m1, c[2]}, std::array{m1, m2, m0}}) {
       face.corner = corner;
@@ -153,11 +117,46 @@ double split_faces(const Patch& patch, System& system) {
 
 }  // namespace
 
-System make_system(const Patch& patch, double reach) {
+std::vector<std::array<Index, 3>> number_edges(const Patch& patch, Index& count) {
+  const Index faces = Index(patch.corners.size());
+  std::vector<std::array<Index, 3>> number(faces, {kNone, kNone, kNone});
+  struct Side {
+    Index low, high;
+    double length;
+    Index half_edge;
+  };
+  std::vector<Side> sides;
+  count = 0;
+  for (Index f = 0; f < faces; ++f)
+    for (Index k = 0; k < 3; ++k) {
+      if (number[f][k] != kNone) continue;
+      const Index across = patch.neighbours.empty() ? kNone : patch.neighbours[f][k];
+      if (across != kNone) {
+        number[f][k] = number[across / 3][across % 3] = count++;
+        continue;
+      }
+      const auto [low, high] = std::minmax(patch.corners[f][k], patch.corners[f][(k + 1) % 3]);
+      sides.push_back({low, high, patch.lengths[f][k], 3 * f + k});
+    }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.low, a.high, a.length, a.half_edge) <
+           std::tie(b.low, b.high, b.length, b.half_edge);
+  });
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const bool same = i > 0 && sides[i].low == sides[i - 1].low &&
+                      sides[i].high == sides[i - 1].high &&
+                      sides[i].length - sides[i - 1].length <= 1e-9 * sides[i].length;
+    if (!same) ++count;
+    number[sides[i].half_edge / 3][sides[i].half_edge % 3] = count - 1;
+  }
+  return number;
+}
+
+System make_system(const Patch& patch, const std::vector<float>& weights, double reach) {
   System system;
   system.scale = patch.longest_edge;
   system.component = find_components(patch);
-  const double spacing = split_faces(patch, system);
+  const double spacing = split_faces(patch, weights, system);
   // sqrt(t) is .84 node spacings: below, the mesh does not resolve the front; above, curvature
   // bends it more. Far out it grows so that exp(-reach / sqrt(t)) stays a float.
   constexpr double kDecay = 60;

@@ -1,0 +1,21 @@
+// The triangle complex of a point cloud: its local triangulations in one.
+#pragma once
+
+#include <vector>
+
+#include "onmesh/cloud_points.h"
+
+namespace onmesh::cloud {
+
+/// A complex on the patch's nodes for the heat solver.
+struct Complex {
+  Patch patch;                 ///< nodes, corners, lengths; the gluing follows from the lengths
+  std::vector<float> weights;  ///< per face: layers of surface it stands for; empty = 1 each
+};
+
+/// The union of the local triangulations around all points. Where they disagree, a triangle that
+/// more of its corners found goes first, and what would lie on the same side of an edge as another
+/// is left out. What the patch's faces join stays joined. Intrinsic Delaunay, see make_delaunay().
+Complex make_complex(const Patch& patch, const NodeGeometry& geometry);
+
+}  // namespace onmesh::cloud
