@@ -25,7 +25,7 @@ class Cloud final : public DistanceBackend {
   }
   void fill(const Patch& patch, double reach, DistanceTable& table) const override {
     const Complex complex = make_complex(patch, geometry_);
-    heat::fill(complex.patch, complex.weights, reach, table);
+    heat::fill(complex.triangles, complex.cover, complex.weights, reach, table);
   }
   Index skipped_nodes() const override { return geometry_.skipped; }
 

@@ -99,7 +99,7 @@ class Components {
 Complex make_complex(const Patch& patch, const NodeGeometry& geometry) {
   const Points points = make_points(patch, geometry);
   Complex complex;
-  Patch& out = complex.patch;
+  Patch& out = complex.triangles;
   out.nodes = patch.nodes;
   out.core_nodes = patch.core_nodes;
   Components components(patch.nodes.size());
@@ -124,9 +124,10 @@ Complex make_complex(const Patch& patch, const NodeGeometry& geometry) {
   }
   for (Index f = 0; f < patch.corners.size(); ++f)
     if (!components.joined(patch.corners[f])) add(patch.corners[f], patch.lengths[f]);
-  complex.weights = make_delaunay(out);
   for (const auto& l : out.lengths)
     out.longest_edge = std::max({out.longest_edge, l[0], l[1], l[2]});
+  complex.cover = out;
+  complex.weights = make_delaunay(complex.cover);
   return complex;
 }
 

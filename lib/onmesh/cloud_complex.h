@@ -7,15 +7,16 @@
 
 namespace onmesh::cloud {
 
-/// A complex on the patch's nodes for the heat solver.
+/// Complexes on the patch's nodes for the heat solver.
 struct Complex {
-  Patch patch;                 ///< nodes, corners, lengths; the gluing follows from the lengths
-  std::vector<float> weights;  ///< per face: layers of surface it stands for; empty = 1 each
+  Patch triangles;             ///< the cloud's triangles
+  Patch cover;                 ///< the same, intrinsic Delaunay: see make_delaunay()
+  std::vector<float> weights;  ///< per face of the cover; empty = 1 each
 };
 
 /// The union of the local triangulations around all points. Where they disagree, a triangle that
 /// more of its corners found goes first, and what would lie on the same side of an edge as another
-/// is left out. What the patch's faces join stays joined. Intrinsic Delaunay, see make_delaunay().
+/// is left out. What the patch's faces join stays joined.
 Complex make_complex(const Patch& patch, const NodeGeometry& geometry);
 
 }  // namespace onmesh::cloud

@@ -99,20 +99,14 @@ std::vector<float> make_delaunay(Patch& complex) {
   std::vector<float> weights(complex.corners.size(), 1);
   for (Index f = 0; f < flipped.size(); ++f) {
     if (!flipped[f]) continue;
-    for (const Index h : {6 * f, 6 * f + 3}) {
-      const std::array<Index, 3> corner{cover.tail[h], cover.tail[h + 1], cover.tail[h + 2]};
-      const std::array<double, 3> lengths{cover.length[h], cover.length[h + 1],
-                                          cover.length[h + 2]};
-      if (h == 6 * f) {
-        complex.corners[f] = corner;
-        complex.lengths[f] = lengths;
-        weights[f] = 0.5;
-      } else {
-        complex.corners.push_back(corner);
-        complex.lengths.push_back(lengths);
-        weights.push_back(0.5);
-      }
-    }
+    const auto copy = [&](Index h, std::array<Index, 3>& corner, std::array<double, 3>& lengths) {
+      corner = {cover.tail[h], cover.tail[h + 1], cover.tail[h + 2]};
+      lengths = {cover.length[h], cover.length[h + 1], cover.length[h + 2]};
+    };
+    copy(6 * f, complex.corners[f], complex.lengths[f]);
+    copy(6 * f + 3, complex.corners.emplace_back(), complex.lengths.emplace_back());
+    weights[f] = 0.5;
+    weights.push_back(0.5);
   }
   return weights;
 }

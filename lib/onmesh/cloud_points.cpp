@@ -10,8 +10,9 @@ namespace {
 
 // Of a face's area to its squared longest edge: below, it has no plane.
 constexpr double kLeastArea = 1e-12;
-// Points whose normals are farther apart than acos of this are on different leaves of a fold.
-constexpr double kLeastCosine = -0.9;
+// Least cosine between normals of points that see each other: over a crease between planes, and
+// over anything else, where a tangent plane soon is no picture of the surface.
+constexpr double kCreaseCosine = -0.9, kLeastCosine = 0.4;
 
 // The half-edge 3 g + l that edge k of face f is glued to, as in NodeMesh::neighbours.
 std::vector<Index> find_twins(const Patch& patch) {
@@ -210,8 +211,9 @@ Sight look(const Points& points, Index from, Index to, int turn) {
   const Vec3 d = points.position[to] - points.position[from];
   const Vec3& n = points.normal[from];
   const Vec3 m = turn * points.normal[to];
-  if (n.dot(m) < kLeastCosine) return {};
-  if (points.is_flat[from] && points.is_flat[to]) {
+  const bool flat = points.is_flat[from] && points.is_flat[to];
+  if (!m.isZero() && n.dot(m) < (flat ? kCreaseCosine : kLeastCosine)) return {};
+  if (flat) {
     // Both planes contain the direction n x m. Across it, the crease is s from one point along its
     // plane and u from the other.
     const Vec3 along = n.cross(m);
@@ -223,10 +225,10 @@ Sight look(const Points& points, Index from, Index to, int turn) {
     }
   }
   const double length = d.norm();
-  const Vec3 flat = d - d.dot(n) * n;
-  const double projected = flat.norm();
+  const Vec3 along = d - d.dot(n) * n;
+  const double projected = along.norm();
   if (!(projected > 1e-6 * length)) return {};
-  return {length / projected * flat, length, true};
+  return {length / projected * along, length, true};
 }
 
 }  // namespace onmesh::cloud

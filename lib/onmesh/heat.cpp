@@ -209,7 +209,7 @@ class Heat final : public DistanceBackend {
   std::string_view name() const override { return "heat"; }
   double margin(double, double longest_edge) const override { return heat::margin(longest_edge); }
   void fill(const Patch& patch, double reach, DistanceTable& table) const override {
-    heat::fill(patch, {}, reach, table);
+    heat::fill(patch, patch, {}, reach, table);
   }
 };
 
@@ -217,19 +217,19 @@ class Heat final : public DistanceBackend {
 
 double margin(double longest_edge) { return 2 * longest_edge; }
 
-void fill(const Patch& patch, const std::vector<float>& weights, double reach,
+void fill(const Patch& near, const Patch& flow, const std::vector<float>& weights, double reach,
           DistanceTable& table) {
-  make_unfold()->fill(patch, std::min(reach, 2 * patch.longest_edge), table);
-  if (!(patch.longest_edge > 0)) return;
-  const System system = make_system(patch, weights, reach);
+  make_unfold()->fill(near, std::min(reach, 2 * near.longest_edge), table);
+  if (!(near.longest_edge > 0)) return;
+  const System system = make_system(flow, weights, reach);
   Solver solver(system);
-  const TwoRings rings(patch);
+  const TwoRings rings(near);
   std::vector<Index> ring;
-  std::vector<unsigned char> is_near(patch.nodes.size(), 0);
-  const double limit = reach + patch.longest_edge;
+  std::vector<unsigned char> is_near(near.nodes.size(), 0);
+  const double limit = reach + near.longest_edge;
 
-  for (Index first = 0; first < patch.core_nodes; first += kLanes) {
-    const int count = int(std::min<Index>(kLanes, patch.core_nodes - first));
+  for (Index first = 0; first < near.core_nodes; first += kLanes) {
+    const int count = int(std::min<Index>(kLanes, near.core_nodes - first));
     solver.solve(first, count);
     for (int lane = 0; lane < count; ++lane) {
       const Index source = first + lane;
