@@ -170,9 +170,11 @@ void Star::sort_neighbours(Index centre) {
   });
 }
 
+// Over the surface: in the plane, where a look is no way to tell.
 double Star::distance(const Neighbour& a, const Neighbour& b) const {
   const Sight sight = look(points_, a.point, b.point, a.turn * b.turn);
-  return sight.valid ? sight.length : (a.at - b.at).norm();
+  const double in_plane = (a.at - b.at).norm();
+  return sight.valid && in_plane <= kLongestDetour * sight.length ? sight.length : in_plane;
 }
 
 // Whether the edge to b stays, of three neighbours in order.
