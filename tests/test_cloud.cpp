@@ -106,7 +106,6 @@ TEST_CASE("cloud distances converge in the outer part of the kernel", "[cloud]")
                                                   : blob(level);
       if (c == 1) sigma = mean_edge(make_node_mesh(mesh));
       const double error = mean_error(mesh, sigma);
-      WARN(shape << c << " " << error);
       CAPTURE(shape, c, error, before);
       CHECK(error < before);
       before = error;
@@ -391,7 +390,6 @@ TEST_CASE("a patch of the cloud gives the distances that the whole gives", "[clo
         worst = std::max(worst, std::abs(std::sqrt(double(table.row(i)[j])) - std::sqrt(truth)));
       }
   }
-  WARN(worst / h);
   CHECK(worst < 0.05 * h);
 }
 

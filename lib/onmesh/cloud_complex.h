@@ -14,9 +14,9 @@ struct Complex {
   std::vector<float> weights;  ///< per face of the cover; empty = 1 each
 };
 
-/// The union of the local triangulations around all points. Where they disagree, a triangle that
-/// more of its corners found goes first, and what would lie on the same side of an edge as another
-/// is left out. What the patch's faces join stays joined.
+/// The local triangulations around all points in one complex. A triangle that all its corners found
+/// is in. Where they disagree, gaps are filled with what fits: nothing lies twice on one side of an
+/// edge. What the patch's faces join stays joined.
 Complex make_complex(const Patch& patch, const NodeGeometry& geometry);
 
 }  // namespace onmesh::cloud
