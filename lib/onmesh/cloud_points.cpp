@@ -12,7 +12,7 @@ namespace {
 constexpr double kLeastArea = 1e-12;
 // Least cosine between normals of points that see each other: over a crease between planes, and
 // over anything else, where a tangent plane soon is no picture of the surface.
-constexpr double kCreaseCosine = -0.9, kLeastCosine = 0.4;
+constexpr double kCreaseCosine = -0.9, kLeastCosine = 0.8;
 
 // The half-edge 3 g + l that edge k of face f is glued to, as in NodeMesh::neighbours.
 std::vector<Index> find_twins(const Patch& patch) {
