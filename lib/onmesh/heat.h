@@ -8,8 +8,8 @@
 
 namespace onmesh::heat {
 
-/// How far beyond `reach` a complex must extend: its rim reflects heat, and what that bends must
-/// stay outside.
+/// How far beyond `reach` a complex must extend: what its rim bends, which neither reflects heat
+/// nor lets it pass altogether, must stay outside.
 double margin(double longest_edge);
 
 /// Squared distances from every core node to every node (see DistanceBackend::fill). Both complexes

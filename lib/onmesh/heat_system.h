@@ -18,7 +18,7 @@ struct Factor {
 struct SplitFace {
   std::array<Index, 3> corner;
   float gx1, gy1, gx2, gy2;  ///< gradients of the hat functions of corners 1 and 2; corner 0: -sum
-  float area;  ///< times the face's weight
+  float area;                ///< times the face's weight
 };
 
 /// The patch split 1 -> 4 by halving its edges, with its factorisations. Lengths are in units of
