@@ -141,6 +141,10 @@ BENCHMARK_CAPTURE(fill_table, heat, DistanceMethod::heat)
     ->ArgNames({"shape", "c"})
     ->ArgsProduct(kSmall)
     ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(fill_table, cloud, DistanceMethod::cloud)
+    ->ArgNames({"shape", "c"})
+    ->ArgsProduct(kSmall)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(fill_table, exact, DistanceMethod::exact)
     ->ArgNames({"shape", "c"})
     ->ArgsProduct(kSmall)

@@ -210,9 +210,10 @@ TEST_CASE("distances on a plane are straight with every back end", "[tools][dist
   const Workspace space;
   space.must("make-mesh plane --segments 4 -o m.obj -t m.png --size 64");
   const TriangleMesh mesh = read_mesh(space / "m.obj");
-  for (const std::string method : {"unfold", "exact", "heat"}) {
+  for (const std::string method : {"unfold", "exact", "heat", "cloud"}) {
     INFO(method);
-    const double tolerance = method == "heat" ? 0.035 : 1e-5 /* half the spacing */;
+    const bool by_heat = method == "heat" || method == "cloud";
+    const double tolerance = by_heat ? 0.035 : 1e-5 /* half the spacing */;
     const auto json = space
                           .must("distance m.obj --uv 0.3,0.6 --spacing 5% -o d.ply --json" +
                                 std::string(method == "exact" ? " --nodes-ply n.ply" : "") +

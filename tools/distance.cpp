@@ -26,8 +26,9 @@ Command make_command() {
   command.synopsis = "MESH (--vertex N | --uv U,V | --point X,Y,Z) [-o OUT.ply] [options]";
   command.summary =
       "Computes geodesic distances from one point of the surface. What lies beyond the radius or\n"
-      "on another component gets NaN. The back ends unfold and heat compute between the nodes of\n"
-      "a refinement (see onmesh refine) and interpolate; exact follows every path on the mesh.";
+      "on another component gets NaN. The back ends unfold, heat and cloud compute between the\n"
+      "nodes of a refinement (see onmesh refine) and interpolate; exact follows every path on the\n"
+      "mesh.";
   command.examples =
       "  onmesh distance cube.obj --vertex 0 -o distance.ply\n"
       "  onmesh distance cube.obj --uv 0.2,0.6 --radius 20% --compare exact\n"
@@ -39,7 +40,7 @@ Command make_command() {
   add("vertex", text(), "start at this vertex of the file, counted from 0");
   add("uv", text(), "start where the atlas has these UVs (the first face that has)");
   add("point", text(), "start at the surface's closest point to this one");
-  add("distance", text("auto"), "auto, unfold, heat or exact");
+  add("distance", text("auto"), "auto, unfold, heat, cloud or exact");
   add("radius", text(), "largest distance: mesh units, % of the diagonal or tx (default: none)");
   add("spacing", text(),
       "distance between nodes, likewise (default: the mean edge, 1% or a fifth of the radius, "

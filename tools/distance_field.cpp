@@ -146,7 +146,8 @@ std::vector<double> node_distances(const TriangleMesh& mesh, const NodeSurface& 
   // A node of the source's face is up to an edge farther away than the source itself.
   const double longest = nodes.longest_edge();
   double reach = std::min(radius + longest, longest_path(nodes));
-  if (method == DistanceMethod::heat && reach < radius) {
+  const bool heat = method == DistanceMethod::heat || method == DistanceMethod::cloud;
+  if (heat && reach < radius) {
     // The heat method takes its time step from the reach, so that a bound far off would spoil it.
     const auto march = node_distances(mesh, surface, source, DistanceMethod::unfold, radius);
     reach = longest;

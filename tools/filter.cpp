@@ -40,7 +40,7 @@ Command make_command() {
       "bilateral: width of the filter in colour differences; values run from 0 to 1 (or 25/255)");
   add("radius", text(),
       "length: how far samples count (default: 2.5 sigma bilateral, 3 sigma gaussian)");
-  add("distance", text("auto"), "how distances are computed: auto, unfold, heat or exact");
+  add("distance", text("auto"), "how distances are computed: auto, unfold, heat, cloud or exact");
   add("method", text("auto"),
       "how the sums are done: direct (pair by pair), nodes (at a cost per texel that does not "
       "depend on sigma), or auto: nodes where that is faster and within the tolerance");

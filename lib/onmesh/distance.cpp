@@ -10,10 +10,11 @@
 namespace onmesh {
 namespace {
 
-constexpr std::array<std::pair<DistanceMethod, std::string_view>, 4> kNames{{
+constexpr std::array<std::pair<DistanceMethod, std::string_view>, 5> kNames{{
     {DistanceMethod::automatic, "auto"},
     {DistanceMethod::unfold, "unfold"},
     {DistanceMethod::heat, "heat"},
+    {DistanceMethod::cloud, "cloud"},
     {DistanceMethod::exact, "exact"},
 }};
 
@@ -39,6 +40,8 @@ std::unique_ptr<DistanceBackend> make_backend(DistanceMethod method, const Trian
   switch (method) {
     case DistanceMethod::heat:
       return make_heat();
+    case DistanceMethod::cloud:
+      return make_cloud(mesh, nodes);
     case DistanceMethod::exact:
       return make_exact(mesh, nodes);
     case DistanceMethod::automatic:

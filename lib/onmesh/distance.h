@@ -23,7 +23,7 @@ struct DistanceTable {
   const float* row(Index i) const { return squared.data() + std::size_t(i) * columns; }
 };
 
-enum class DistanceMethod { automatic, unfold, heat, exact };
+enum class DistanceMethod { automatic, unfold, heat, cloud, exact };
 
 std::string_view name_of(DistanceMethod method);
 /// \throw UsageError naming the value
@@ -41,12 +41,18 @@ class DistanceBackend {
   /// Squared distances from every core node to every patch node. Entries up to `reach` are right,
   /// entries beyond may be kUnreachable.
   virtual void fill(const Patch& patch, double reach, DistanceTable& table) const = 0;
+  /// Nodes of the whole mesh that no distance leads to because this back end cannot place them on a
+  /// surface.
+  virtual Index skipped_nodes() const { return 0; }
 };
 
 /// The virtual-source march (unfold.cpp).
 std::unique_ptr<DistanceBackend> make_unfold();
 /// The heat method with local factorisations (heat.cpp).
 std::unique_ptr<DistanceBackend> make_heat();
+/// The heat method on the nodes as a point cloud with normals, on any triangle set (cloud.cpp).
+/// \pre nodes.nodes lie on the mesh
+std::unique_ptr<DistanceBackend> make_cloud(const TriangleMesh& mesh, const NodeMesh& nodes);
 /// Exact polyhedral distances by CGAL (exact.cpp). Keeps references to both meshes.
 /// \pre mesh is manifold and wound consistently
 std::unique_ptr<DistanceBackend> make_exact(const TriangleMesh& mesh, const NodeMesh& nodes);

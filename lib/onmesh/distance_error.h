@@ -10,7 +10,8 @@
 namespace onmesh {
 
 /// The back ends that comparisons show side by side.
-inline constexpr std::array kComparedMethods{DistanceMethod::unfold, DistanceMethod::heat};
+inline constexpr std::array kComparedMethods{DistanceMethod::unfold, DistanceMethod::heat,
+                                             DistanceMethod::cloud};
 
 /// Errors over the points whose exact distance is known.
 struct DistanceError {

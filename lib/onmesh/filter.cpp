@@ -216,7 +216,7 @@ void refuse_long_runs(const PatchWork& work) {
   const double seconds = estimate_table_seconds(work) / tbb::this_task_arena::max_concurrency();
   if (seconds > kLongestExactRun) {
     throw InputError("--distance exact: would take about " + duration_text(seconds) +
-                     "; use unfold or heat, or a smaller texture or mesh");
+                     "; use unfold, heat or cloud, or a smaller texture or mesh");
   }
 }
 
@@ -276,6 +276,10 @@ Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& o
   const bool bilateral = options.kind == FilterKind::bilateral;
   const auto backend = make_backend(options.distance, setup.mesh, surface.nodes);
   report.backend = backend->name();
+  if (backend->skipped_nodes() > 0) {
+    report.warnings.push_back(std::to_string(backend->skipped_nodes()) +
+                              " points have no face with area around them and are left out");
+  }
   report.backend_reason = options.distance == DistanceMethod::automatic
                               ? "the default for manifold meshes"
                               : "asked for";

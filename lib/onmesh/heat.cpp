@@ -5,9 +5,8 @@
 // - The patch is split 1 -> 4 (intrinsically: edge lengths halve), which quarters the time step t.
 // - Its error is first order in sqrt(t), so the divergence is extrapolated from t and 4 t:
 //   2 div(t) - div(4 t). Both are linear up to the one Poisson solve, so that costs one heat solve.
-// - The near field, two rings of nodes, comes from the unfolding march, which also fixes the
-// additive
-//   constant.
+// - The near field, two rings of nodes, comes from the unfolding march on the same complex, which
+//   also fixes the additive constant.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "onmesh/heat.cpp"
 #include <hwy/foreach_target.h>
@@ -18,7 +17,7 @@
 #include <cmath>
 #include <vector>
 
-#include "onmesh/distance.h"
+#include "onmesh/heat.h"
 #include "onmesh/heat_system.h"
 
 #ifndef ONMESH_HEAT_SHARED
@@ -208,55 +207,57 @@ class Solver {
 class Heat final : public DistanceBackend {
  public:
   std::string_view name() const override { return "heat"; }
-
-  // The patch's rim reflects heat: what that bends must stay outside of `reach`.
-  double margin(double, double longest_edge) const override { return 2 * longest_edge; }
-
+  double margin(double, double longest_edge) const override { return heat::margin(longest_edge); }
   void fill(const Patch& patch, double reach, DistanceTable& table) const override {
-    near_field_->fill(patch, std::min(reach, 2 * patch.longest_edge), table);
-    if (!(patch.longest_edge > 0)) return;
-    const System system = make_system(patch, reach);
-    Solver solver(system);
-    const TwoRings rings(patch);
-    std::vector<Index> ring;
-    std::vector<unsigned char> is_near(patch.nodes.size(), 0);
-    const double limit = reach + patch.longest_edge;
-
-    for (Index first = 0; first < patch.core_nodes; first += kLanes) {
-      const int count = int(std::min<Index>(kLanes, patch.core_nodes - first));
-      solver.solve(first, count);
-      for (int lane = 0; lane < count; ++lane) {
-        const Index source = first + lane;
-        float* const row = table.squared.data() + std::size_t(source) * table.columns;
-        // The constant: match the near field on average.
-        rings.around(source, ring);
-        is_near[source] = 1;
-        double shift = 0;
-        int known = 0;
-        for (const Index node : ring) {
-          if (is_near[node] || row[node] == kUnreachable) continue;
-          is_near[node] = 1;
-          shift += std::sqrt(double(row[node])) - solver.value(node, lane);
-          ++known;
-        }
-        shift = known > 0 ? shift / known : -solver.value(source, lane);
-        for (Index node = 0; node < table.columns; ++node) {
-          if (is_near[node]) continue;
-          const double d = std::max(0.0, solver.value(node, lane) + shift);
-          const bool reached = d <= limit && system.component[node] == system.component[source];
-          row[node] = reached ? float(d * d) : kUnreachable;
-        }
-        is_near[source] = 0;
-        for (const Index node : ring) is_near[node] = 0;
-      }
-    }
+    heat::fill(patch, patch, {}, reach, table);
   }
-
- private:
-  std::unique_ptr<DistanceBackend> near_field_ = make_unfold();
 };
 
 }  // namespace
+
+double margin(double longest_edge) { return 2 * longest_edge; }
+
+void fill(const Patch& near, const Patch& flow, const std::vector<float>& weights, double reach,
+          DistanceTable& table) {
+  make_unfold()->fill(near, std::min(reach, 2 * near.longest_edge), table);
+  if (!(near.longest_edge > 0)) return;
+  const System system = make_system(flow, weights, reach);
+  Solver solver(system);
+  const TwoRings rings(near);
+  std::vector<Index> ring;
+  std::vector<unsigned char> is_near(near.nodes.size(), 0);
+  const double limit = reach + near.longest_edge;
+
+  for (Index first = 0; first < near.core_nodes; first += kLanes) {
+    const int count = int(std::min<Index>(kLanes, near.core_nodes - first));
+    solver.solve(first, count);
+    for (int lane = 0; lane < count; ++lane) {
+      const Index source = first + lane;
+      float* const row = table.squared.data() + std::size_t(source) * table.columns;
+      // The constant: match the near field on average.
+      rings.around(source, ring);
+      is_near[source] = 1;
+      double shift = 0;
+      int known = 0;
+      for (const Index node : ring) {
+        if (is_near[node] || row[node] == kUnreachable) continue;
+        is_near[node] = 1;
+        shift += std::sqrt(double(row[node])) - solver.value(node, lane);
+        ++known;
+      }
+      shift = known > 0 ? shift / known : -solver.value(source, lane);
+      for (Index node = 0; node < table.columns; ++node) {
+        if (is_near[node]) continue;
+        const double d = std::max(0.0, solver.value(node, lane) + shift);
+        const bool reached = d <= limit && system.component[node] == system.component[source];
+        row[node] = reached ? float(d * d) : kUnreachable;
+      }
+      is_near[source] = 0;
+      for (const Index node : ring) is_near[node] = 0;
+    }
+  }
+}
+
 }  // namespace heat
 
 std::unique_ptr<DistanceBackend> make_heat() { return std::make_unique<heat::Heat>(); }

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <tuple>
 
 #include "onmesh/error.h"
 
@@ -15,43 +14,6 @@ namespace onmesh::heat {
 namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
-
-// Number of the midpoint of every edge of every face. Edges are identified by the gluing where the
-// mesh knows it, else by their nodes and lengths: that also joins edges of three or more faces.
-std::vector<std::array<Index, 3>> number_edges(const Patch& patch, Index& count) {
-  const Index faces = Index(patch.corners.size());
-  std::vector<std::array<Index, 3>> number(faces, {kNone, kNone, kNone});
-  struct Side {
-    Index low, high;
-    double length;
-    Index half_edge;
-  };
-  std::vector<Side> sides;
-  count = 0;
-  for (Index f = 0; f < faces; ++f)
-    for (Index k = 0; k < 3; ++k) {
-      if (number[f][k] != kNone) continue;
-      const Index across = patch.neighbours.empty() ? kNone : patch.neighbours[f][k];
-      if (across != kNone) {
-        number[f][k] = number[across / 3][across % 3] = count++;
-        continue;
-      }
-      const auto [low, high] = std::minmax(patch.corners[f][k], patch.corners[f][(k + 1) % 3]);
-      sides.push_back({low, high, patch.lengths[f][k], 3 * f + k});
-    }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.length, a.half_edge) <
-           std::tie(b.low, b.high, b.length, b.half_edge);
-  });
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const bool same = i > 0 && sides[i].low == sides[i - 1].low &&
-                      sides[i].high == sides[i - 1].high &&
-                      sides[i].length - sides[i - 1].length <= 1e-9 * sides[i].length;
-    if (!same) ++count;
-    number[sides[i].half_edge / 3][sides[i].half_edge % 3] = count - 1;
-  }
-  return number;
-}
 
 // Gradients of the hat functions on a triangle with these lengths.
 SplitFace make_face(const std::array<Index, 3>& corner, const std::array<double, 3>& l) {
@@ -127,8 +89,28 @@ int most_hops(const Patch& patch) {
   return most;
 }
 
+// The length of border that each node of the split patch stands for.
+std::vector<double> border_lengths(const Patch& patch,
+                                   const std::vector<std::array<Index, 3>>& middle,
+                                   const System& system) {
+  std::vector<Index> sides(system.size - patch.nodes.size(), 0);
+  for (const auto& m : middle)
+    for (const Index e : m) ++sides[e];
+  std::vector<double> length(system.size, 0);
+  for (Index f = 0; f < patch.corners.size(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      if (sides[middle[f][k]] != 1) continue;
+      const double quarter = patch.lengths[f][k] / (4 * system.scale);
+      length[patch.corners[f][k]] += quarter;
+      length[patch.corners[f][(k + 1) % 3]] += quarter;
+      length[patch.nodes.size() + middle[f][k]] += 2 * quarter;
+    }
+  return length;
+}
+
 // Splits every face 1 -> 4; returns the mean edge length of the split patch.
-double split_faces(const Patch& patch, System& system) {
+double split_faces(const Patch& patch, const std::vector<float>& weights, System& system,
+                   std::vector<double>& border) {
   Index edges = 0;
   const auto middle = number_edges(patch, edges);
   const Index nodes = Index(patch.nodes.size());
@@ -142,26 +124,33 @@ double split_faces(const Patch& patch, System& system) {
     for (double& x : l) sum += x /= 2 * system.scale;
     // All four are similar to the face; the last is turned by 180 degrees.
     SplitFace face = make_face({c[0], m0, m2}, l);
+    if (!weights.empty()) face.area *= weights[f];
     for (const std::array<Index, 3>& corner : {std::array{c[0], m0, m2}, std::array{m0, c[1], m1},
                                                std::array{m2, m1, c[2]}, std::array{m1, m2, m0}}) {
       face.corner = corner;
       system.faces.push_back(face);
     }
   }
+  border = border_lengths(patch, middle, system);
   return sum / double(3 * patch.corners.size());
 }
 
 }  // namespace
 
-System make_system(const Patch& patch, double reach) {
+System make_system(const Patch& patch, const std::vector<float>& weights, double reach) {
   System system;
   system.scale = patch.longest_edge;
   system.component = find_components(patch);
-  const double spacing = split_faces(patch, system);
-  // sqrt(t) is .84 node spacings: below, the mesh does not resolve the front; above, curvature
-  // bends it more. Far out it grows so that exp(-reach / sqrt(t)) stays a float.
+  std::vector<double> border;
+  const double spacing = split_faces(patch, weights, system, border);
+  // sqrt(t) is .84 node spacings at least: below, the mesh does not resolve the front. What the
+  // front then still has of the mesh's directions bends all distances alike, so farther out it is a
+  // mean of spacing and reach; above 1.7 spacings, curvature bends it more. Far out it grows so
+  // that exp(-reach / sqrt(t)) stays a float.
   constexpr double kDecay = 60;
-  double root_time = 0.84 * 2 * spacing;
+  const double edge = 2 * spacing;
+  double root_time =
+      std::clamp(0.4 * std::sqrt(edge * reach / system.scale), 0.84 * edge, 1.7 * edge);
   if (reach > kDecay * root_time * system.scale)
     root_time =
         std::max(root_time, std::min(reach / system.scale, 2.0 * most_hops(patch)) / kDecay);
@@ -196,11 +185,14 @@ System make_system(const Patch& patch, double reach) {
   permuted = laplacian.twistedBy(order);
   ordered = permuted.transpose();  // the same, with its indices sorted
 
-  // A node without area (all its faces are degenerate) gets an equation of its own.
+  // A node without area (all its faces are degenerate) gets an equation of its own. The border lets
+  // heat out, n . grad u = -u / (2 sqrt(t)): half of what it takes to let a straight front pass, so
+  // that neither fronts that meet the border nor those that run along it are bent much.
   const auto with_mass = [&](double factor) {
     Matrix matrix = ordered * factor;
     for (Index i = 0; i < system.size; ++i)
-      matrix.coeffRef(number[i], number[i]) += mass[i] > 0 ? mass[i] : 1;
+      matrix.coeffRef(number[i], number[i]) +=
+          (mass[i] > 0 ? mass[i] : 1) + 0.5 * std::sqrt(factor) * border[i];
     return matrix;
   };
   system.heat = factorise(with_mass(time));

@@ -18,7 +18,7 @@ struct Factor {
 struct SplitFace {
   std::array<Index, 3> corner;
   float gx1, gy1, gx2, gy2;  ///< gradients of the hat functions of corners 1 and 2; corner 0: -sum
-  float area;
+  float area;                ///< times the face's weight
 };
 
 /// The patch split 1 -> 4 by halving its edges, with its factorisations. Lengths are in units of
@@ -32,9 +32,10 @@ struct System {
   Factor heat, heat4, poisson;  ///< M + t L, M + 4 t L, and L with one node of a component pinned
 };
 
+/// \param weights per face of the patch: how many layers of surface it stands for; empty = 1 each
 /// \param reach mesh units; the time step keeps heat representable as far as that
 /// \pre the patch has faces and an edge of positive length
 /// \throw NumericError if a matrix cannot be factorised
-System make_system(const Patch& patch, double reach);
+System make_system(const Patch& patch, const std::vector<float>& weights, double reach);
 
 }  // namespace onmesh::heat

@@ -138,72 +138,88 @@ IntrinsicTriangulation::IntrinsicTriangulation(const TriangleMesh& mesh,
   for (Index f = 0; f < mesh.faces.size(); ++f) input_layout_[f] = input_.layout(f);
 }
 
-bool IntrinsicTriangulation::is_delaunay(Index h) const {
+bool HalfEdges::is_delaunay(Index h) const {
   // The tolerance keeps cocircular quadrilaterals from being flipped for ever.
-  return edges_.twin[h] == kNone || edges_.cotan_sum(h) >= -1e-9;
+  return twin[h] == kNone || cotan_sum(h) >= -1e-9;
 }
 
-bool IntrinsicTriangulation::flip(Index h) {
-  const Index t = edges_.twin[h];
-  if (t == kNone || HalfEdges::face(h) == HalfEdges::face(t)) return false;
+bool HalfEdges::flip(Index h) {
+  const Index t = twin[h];
+  if (t == kNone || face(h) == face(t)) return false;
   // Faces (a, b, c) on the left of h and (b, a, d) on its right; counter-clockwise a, d, b, c.
-  const Index bc = HalfEdges::next(h), ca = HalfEdges::prev(h);
-  const Index ad = HalfEdges::next(t), db = HalfEdges::prev(t);
-  const Index a = edges_.tail[h], b = edges_.tail[t], c = edges_.tail[ca], d = edges_.tail[db];
-
-  const Vec2 at_a(0, 0), at_b(edges_.length[h], 0);
-  const Vec2 at_c = edges_.opposite(h, at_a, at_b), at_d = edges_.opposite(t, at_b, at_a);
+  const std::array<Index, 4> old = around(h);  // bc, ca, ad, db
+  const Index c = tail[old[1]], d = tail[old[3]];
+  const Vec2 at_a(0, 0), at_b(length[h], 0);
+  const Vec2 at_c = opposite(h, at_a, at_b), at_d = opposite(t, at_b, at_a);
   if (!(cross(at_d - at_a, at_c - at_a) > 0) || !(cross(at_c - at_b, at_d - at_b) > 0))
     return false;
   const double diagonal = (at_d - at_c).norm();
   if (!(diagonal > 0)) return false;
 
   struct Side {
-    Index twin;
-    double length, direction;
+    Index twin, tail;
+    double length;
   };
-  const auto side = [this](Index e) {
-    return Side{edges_.twin[e], edges_.length[e], direction_[e]};
-  };
-  const Side s_bc = side(bc), s_ca = side(ca), s_ad = side(ad), s_db = side(db);
-
+  std::array<Side, 4> side;
+  for (std::size_t i = 0; i < 4; ++i) side[i] = {twin[old[i]], tail[old[i]], length[old[i]]};
   // New faces: (d, c, a) in h's place with h = d->c, and (c, d, b) in t's place with t = c->d.
-  // Half-edges that move: c->a and a->d follow h, d->b and b->c follow t.
-  const Index new_ca = bc, new_ad = ca, new_db = ad, new_bc = db;
-  const auto renamed = [&](Index e) {
-    if (e == ca) return new_ca;
-    if (e == ad) return new_ad;
-    if (e == db) return new_db;
-    if (e == bc) return new_bc;
-    return e;
-  };
-  const auto put = [&](Index e, Index tail, const Side& s) {
-    edges_.tail[e] = tail;
-    edges_.length[e] = s.length;
-    direction_[e] = s.direction;
-    edges_.twin[e] = s.twin == kNone ? kNone : renamed(s.twin);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Index e = old[(i + 3) % 4];
+    tail[e] = side[i].tail;
+    length[e] = side[i].length;
+    const auto inside = std::find(old.begin(), old.end(), side[i].twin);
+    twin[e] = inside == old.end() ? side[i].twin : old[(inside - old.begin() + 3) % 4];
     // An outside twin learns the new number; twins among the four are set by their own turn.
-    if (s.twin != kNone) edges_.twin[edges_.twin[e]] = e;
-  };
-  put(new_ca, c, s_ca);
-  put(new_ad, a, s_ad);
-  put(new_db, d, s_db);
-  put(new_bc, b, s_bc);
-  edges_.tail[h] = d;
-  edges_.tail[t] = c;
-  edges_.length[h] = edges_.length[t] = diagonal;
+    if (twin[e] != kNone) twin[twin[e]] = e;
+  }
+  tail[h] = d;
+  tail[t] = c;
+  length[h] = length[t] = diagonal;
+  return true;
+}
+
+Index HalfEdges::flip_to_delaunay(std::vector<Index> suspects,
+                                  const std::function<bool(Index)>& flip_edge) {
+  Index flips = 0;
+  // Lawson's algorithm ends after finitely many flips; in floating point a bound makes sure of it.
+  const std::size_t bound = 1000 + 100 * tail.size();
+  while (!suspects.empty() && flips < bound) {
+    const Index h = suspects.back();
+    suspects.pop_back();
+    if (is_delaunay(h) || !flip_edge(h)) continue;
+    ++flips;
+    for (const Index e : around(h)) suspects.push_back(e);
+  }
+  return flips;
+}
+
+bool IntrinsicTriangulation::flip(Index h) {
+  const Index t = edges_.twin[h];
+  if (t == kNone) return false;
+  const std::array<Index, 4> old = edges_.around(h);
+  const std::array<Index, 4> tails{edges_.tail[h], edges_.tail[t], edges_.tail[old[1]],
+                                   edges_.tail[old[3]]};
+  if (!edges_.flip(h)) return false;
+  std::array<double, 4> direction;
+  for (std::size_t i = 0; i < 4; ++i) direction[i] = direction_[old[i]];
+  for (std::size_t i = 0; i < 4; ++i) direction_[old[(i + 3) % 4]] = direction[i];
 
   // Old numbers mean other half-edges now; repeated vertices must be renamed only once.
-  const std::array<Index, 4> around{a, b, c, d};
   std::array<Index, 4> leaving;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Index e = outgoing_[around[i]];
-    leaving[i] = e == h ? new_ad : e == t ? new_bc : renamed(e);
+    const Index e = outgoing_[tails[i]];
+    const auto moved = std::find(old.begin(), old.end(), e);
+    // h left a, t left b; what leaves them next took the places of c->a and d->b.
+    leaving[i] = e == h               ? old[1]
+                 : e == t             ? old[3]
+                 : moved == old.end() ? e
+                                      : old[(moved - old.begin() + 3) % 4];
   }
-  for (std::size_t i = 0; i < 4; ++i) outgoing_[around[i]] = leaving[i];
+  for (std::size_t i = 0; i < 4; ++i) outgoing_[tails[i]] = leaving[i];
 
-  set_direction(t, direction_[new_ca] + edges_.corner_angle(new_ca));
-  set_direction(h, direction_[new_db] + edges_.corner_angle(new_db));
+  const Index ca = old[0], db = old[2];
+  set_direction(t, direction_[ca] + edges_.corner_angle(ca));
+  set_direction(h, direction_[db] + edges_.corner_angle(db));
   return true;
 }
 
@@ -219,26 +235,14 @@ void IntrinsicTriangulation::set_direction(Index h, double angle) {
 
 Index IntrinsicTriangulation::flip_to_delaunay(std::vector<Index> suspects,
                                                std::vector<Index>* touched) {
-  Index flips = 0;
-  // Lawson's algorithm ends after finitely many flips; in floating point a bound makes sure of it.
-  const std::size_t bound = 1000 + 100 * edges_.tail.size();
-  while (!suspects.empty() && flips < bound) {
-    const Index h = suspects.back();
-    suspects.pop_back();
-    if (is_delaunay(h)) continue;
-    const Index t = edges_.twin[h];
-    if (!flip(h)) continue;
-    ++flips;
-    for (const Index e :
-         {HalfEdges::next(h), HalfEdges::prev(h), HalfEdges::next(t), HalfEdges::prev(t)}) {
-      suspects.push_back(e);
-    }
+  return edges_.flip_to_delaunay(std::move(suspects), [&](Index h) {
+    if (!flip(h)) return false;
     if (touched != nullptr) {
       touched->push_back(HalfEdges::face(h));
-      touched->push_back(HalfEdges::face(t));
+      touched->push_back(HalfEdges::face(edges_.twin[h]));
     }
-  }
-  return flips;
+    return true;
+  });
 }
 
 Index IntrinsicTriangulation::flip_to_delaunay() {

@@ -2,6 +2,7 @@
 // mesh.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,22 @@ struct HalfEdges {
   Vec2 opposite(Index h, const Vec2& a, const Vec2& b) const;
   /// Sum of the cotangents of the angles opposite the edge: negative if it is not Delaunay.
   double cotan_sum(Index h) const;
+  bool is_delaunay(Index h) const;
+
+  /// Replace the edge by the other diagonal of its two faces, which keep their numbers. Half-edge h
+  /// and its twin become the new diagonal's; the other four move: see around().
+  /// \return false on the boundary, where both sides are one face, or where the two faces do not
+  ///   form a strictly convex quadrilateral
+  bool flip(Index h);
+  /// The four half-edges around an edge and its twin in their cyclic order. A flip moves what is at
+  /// each of them to the place of the one before.
+  std::array<Index, 4> around(Index h) const {
+    return {next(h), prev(h), next(twin[h]), prev(twin[h])};
+  }
+  /// Flip until every edge is Delaunay (Lawson's algorithm), starting with the given half-edges.
+  /// \param flip_edge called to flip an edge with two sides; false if it cannot
+  /// \return number of flips
+  Index flip_to_delaunay(std::vector<Index> suspects, const std::function<bool(Index)>& flip_edge);
 };
 
 /// An intrinsic triangulation of an input mesh (Sharp, Soliman & Crane, Navigating Intrinsic
@@ -62,12 +79,8 @@ class IntrinsicTriangulation {
   /// An outgoing half-edge; the clockwise-most one on the boundary.
   Index outgoing(Index node) const { return outgoing_[node]; }
 
-  bool is_delaunay(Index h) const;
-  /// Replace the edge by the other diagonal of its two faces, which keep their numbers. Half-edge h
-  /// and its twin become the new diagonal's.
-  /// \return false on the boundary, where both sides are one face, or where the two faces do not
-  /// form a
-  ///   strictly convex quadrilateral
+  bool is_delaunay(Index h) const { return edges_.is_delaunay(h); }
+  /// HalfEdges::flip() with signposts.
   bool flip(Index h);
   /// Flip until every edge is Delaunay, starting with the given half-edges. Appends the faces that
   /// changed to `touched` (with repetitions) if given.

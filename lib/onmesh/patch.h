@@ -33,4 +33,8 @@ std::vector<std::vector<Index>> partition_faces(const NodeMesh& mesh,
 /// mesh.build_incidence() was called; core faces are distinct
 Patch grow_patch(const NodeMesh& mesh, const std::vector<Index>& core_faces, double reach);
 
+/// Number of the edge k of every face. Edges are identified by the gluing where the patch knows it,
+/// else by their nodes and lengths: that also joins edges of three or more faces.
+std::vector<std::array<Index, 3>> number_edges(const Patch& patch, Index& count);
+
 }  // namespace onmesh

@@ -1,0 +1,492 @@
+// The point-cloud heat back end: distances, and the complex that it builds of the points.
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <random>
+
+#include "brute_force.h"
+#include "distance_errors.h"
+#include "onmesh/cloud_complex.h"
+#include "onmesh/cloud_cover.h"
+#include "onmesh/filter_patches.h"
+#include "onmesh/pattern.h"
+#include "onmesh/shapes.h"
+#include "simple_shapes.h"
+
+namespace onmesh {
+namespace {
+
+using namespace simple;
+
+DistanceTable cloud_table(const TriangleMesh& mesh, double reach) {
+  const NodeMesh nodes = make_node_mesh(mesh);
+  return fill(*make_cloud(mesh, nodes), whole(nodes), reach);
+}
+
+std::function<double(Index, Index)> straight(const TriangleMesh& mesh) {
+  return [&mesh](Index a, Index b) { return (mesh.positions[a] - mesh.positions[b]).norm(); };
+}
+
+cloud::Complex complex_of(const TriangleMesh& mesh) {
+  const NodeMesh nodes = make_node_mesh(mesh);
+  return cloud::make_complex(whole(nodes), cloud::make_node_geometry(mesh, nodes));
+}
+
+double area_of(const Patch& complex, const std::vector<float>& weights = {}) {
+  double area = 0;
+  for (std::size_t f = 0; f < complex.lengths.size(); ++f) {
+    const auto& l = complex.lengths[f];
+    area += triangle_area(l[0], l[1], l[2]) * (weights.empty() ? 1.0 : double(weights[f]));
+  }
+  return area;
+}
+
+// Every vertex of a page's grid on the book's other pages and its own, by unfolding at the spine.
+double on_book(const Vec3& p, const Vec3& q) {
+  const double a = std::hypot(p.x(), p.z()), b = std::hypot(q.x(), q.z());
+  const bool same_page = p.x() * q.x() + p.z() * q.z() > (1 - 1e-9) * a * b;
+  return std::hypot(same_page ? a - b : a + b, p.y() - q.y());
+}
+
+}  // namespace
+
+TEST_CASE("cloud agrees with exact distances on manifold shapes", "[cloud]") {
+  struct Case {
+    const char* name;
+    TriangleMesh mesh;
+    double bound;  // of the mean error, in mean edge lengths: sigma at the default spacing
+  };
+  for (const Case& c :
+       {Case{"sphere", icosphere(3), 0.003}, Case{"torus", torus(40, 16), 0.01},
+        Case{"cube", cube(6), 0.03}, Case{"cone", cone(270, 24, 12), 0.03},
+        Case{"cylinder", cylinder(24, 12, 2.4, 1.2), 0.02}, Case{"saddle", saddle(14), 0.02},
+        Case{"blob", blob(3), 0.004}, Case{"bumpy", make_blob(3, 1), 0.005}}) {
+    const NodeMesh nodes = make_node_mesh(c.mesh);
+    const Errors errors = against_exact(*make_cloud(c.mesh, nodes), c.mesh, 2.5, 29);
+    CAPTURE(c.name, errors.mean, errors.p99, errors.max);
+    CHECK(errors.count > 100);
+    CHECK(errors.mean < c.bound);
+    CHECK(errors.p99 < 0.2);
+  }
+}
+
+TEST_CASE("cloud distances converge in the outer part of the kernel", "[cloud]") {
+  // From 2 sigma on: what is nearer belongs, at the widest spacing, to the marched near field.
+  const auto mean_error = [](const TriangleMesh& mesh, double sigma) {
+    const NodeMesh nodes = make_node_mesh(mesh);
+    const double radius = 2.5 * sigma;
+    const auto backend = make_cloud(mesh, nodes), exact = make_exact(mesh, nodes);
+    const auto groups = partition_faces(nodes, std::vector<double>(nodes.faces.size(), 1), 600);
+    const Patch patch = grow_patch(nodes, groups[groups.size() / 2],
+                                   radius + backend->margin(radius, nodes.longest_edge()));
+    const DistanceTable table = fill(*backend, patch, radius);
+    std::vector<double> errors;
+    for (Index i = 0; i < table.rows; i += table.rows / 16) {
+      Patch one;
+      one.core_nodes = 1;
+      one.nodes = patch.nodes;
+      one.nodes.insert(one.nodes.begin(), patch.nodes[i]);
+      const DistanceTable truth = fill(*exact, one, radius);
+      for (Index j = 0; j < table.columns; ++j) {
+        const double d = std::sqrt(double(truth.row(0)[j + 1]));
+        if (d > 2 * sigma && d < radius)
+          errors.push_back(std::abs(std::sqrt(double(table.row(i)[j])) - d) / sigma);
+      }
+    }
+    return summarise(errors).mean;
+  };
+  for (const char* const shape : {"sphere", "torus", "blob"}) {
+    double before = 0.05, sigma = 0;
+    for (const int c : {1, 2, 4}) {
+      const int level = c == 1 ? 3 : c == 2 ? 4 : 5;
+      const TriangleMesh mesh = shape[0] == 's'   ? icosphere(level)
+                                : shape[0] == 't' ? torus(40 * c, 16 * c)
+                                                  : blob(level);
+      if (c == 1) sigma = mean_edge(make_node_mesh(mesh));
+      const double error = mean_error(mesh, sigma);
+      CAPTURE(shape, c, error, before);
+      CHECK(error < before);
+      before = error;
+    }
+  }
+}
+
+TEST_CASE("a book's distances unfold at the spine, by cloud", "[cloud]") {
+  for (const double angle : {20.0, 90.0, 120.0}) {
+    const TriangleMesh mesh = make_book(10, angle);
+    const double h = mean_edge(make_node_mesh(mesh));
+    const auto truth = [&](Index a, Index b) {
+      return on_book(mesh.positions[a], mesh.positions[b]);
+    };
+    const Errors errors = compare(cloud_table(mesh, 2.5 * h), 2.5 * h, truth);
+    CAPTURE(angle, errors.mean / h, errors.max / h);
+    CHECK(errors.mean < 0.05 * h);
+    CHECK(errors.max < 0.5 * h);
+  }
+}
+
+TEST_CASE("cloud filters a book close to the definition", "[cloud][accuracy]") {
+  const double angle = 40;
+  const TriangleMesh mesh = make_book(8, angle);
+  const Image texture = make_texture(192, 192, Pattern::checker, 0.3, 7);
+  // The mesh's own faces are the node faces.
+  NodeSurface surface;
+  surface.nodes = make_node_mesh(mesh);
+  surface.overlay.face_offsets.push_back(0);
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    surface.overlay.pieces.push_back({f, Eigen::Matrix3d::Identity()});
+    surface.overlay.face_offsets.push_back(f + 1);
+  }
+  const TexelMap map = make_texel_map(mesh, texture.width, texture.height);
+  const Samples samples = texel_samples(map, surface);
+  const double sigma = 8 * map.median_texel_size();
+  const Distances truth = [&](const SurfacePoint& source,
+                              const std::vector<SurfacePoint>& targets) {
+    std::vector<double> d;
+    for (const SurfacePoint& t : targets)
+      d.push_back(on_book(mesh.position(source), mesh.position(t)));
+    return d;
+  };
+  const auto backend = make_cloud(mesh, surface.nodes);
+  for (const FilterKind kind : {FilterKind::gaussian, FilterKind::bilateral}) {
+    const bool bilateral = kind == FilterKind::bilateral;
+    const double radius = (bilateral ? 2.5 : 3) * sigma;
+    PatchWork work;
+    work.nodes = &surface.nodes;
+    work.backend = backend.get();
+    work.sources = work.targets = &samples;
+    const int channels = texture.channels;
+    work.colours = {texture.pixels.data(), channels, channels, channels};
+    work.kernel = {sigma, radius, bilateral ? 0.2 : 0};
+    Image result = texture;
+    filter_patches(
+        work,
+        [&](Index target, const float* values) {
+          std::copy_n(values, channels, result.texel(samples.samples[target].texel));
+        },
+        [](double) {});
+    const BruteForce error =
+        against_brute_force(mesh, texture, result, kind, sigma, radius, 0.2, 200, truth);
+    CAPTURE(bilateral, error.psnr);
+    CHECK(error.psnr > (bilateral ? 65 : 50));
+  }
+}
+
+TEST_CASE("cloud filters close to the definition", "[cloud][accuracy]") {
+  for (const TriangleMesh& mesh : {make_cube(1), make_sphere(3), make_folded_sheet(8, 2, 1, 100)}) {
+    const Image texture = make_texture(128, 128, Pattern::checker, 0.3, 7);
+    FilterOptions options;
+    options.sigma_spatial = {6, Length::Unit::texel};
+    options.sigma_range = 0.2;
+    options.distance = DistanceMethod::cloud;
+    FilterReport report;
+    const Image result = filter(mesh, texture, options, &report);
+    CHECK(report.backend == "cloud");
+    ExactGeodesics exact(mesh);
+    const BruteForce error = against_brute_force(
+        mesh, texture, result, options.kind, report.sigma_spatial, report.radius, 0.2, 60,
+        [&](const SurfacePoint& source, const auto& targets) {
+          return exact.distances(source, targets);
+        });
+    CHECK(error.psnr > 60);
+  }
+}
+
+TEST_CASE("the paths of a bow tie lead through its knot", "[cloud]") {
+  // Two grids in different planes that share one corner, the origin.
+  const int n = 8;
+  TriangleMesh mesh = plane(n, n, 1, 1);
+  const Index half = Index(mesh.positions.size()), faces = Index(mesh.faces.size());
+  for (Index i = 1; i < half; ++i) {
+    const Vec3 p = mesh.positions[i];
+    mesh.positions.emplace_back(-p.x(), 0.3 * p.y(), p.y());
+  }
+  const auto moved = [&](Index i) { return i == 0 ? 0 : i + half - 1; };
+  for (Index f = 0; f < faces; ++f) {
+    const auto c = mesh.faces[f];
+    mesh.faces.push_back({moved(c[0]), moved(c[1]), moved(c[2])});
+  }
+  const auto truth = [&](Index a, Index b) {
+    const Vec3 &p = mesh.positions[a], &q = mesh.positions[b];
+    return (a < half) == (b < half) || a == 0 || b == 0 ? (p - q).norm() : p.norm() + q.norm();
+  };
+  const double h = mean_edge(make_node_mesh(mesh));
+  const Errors errors = compare(cloud_table(mesh, 2.5 * h), 2.5 * h, truth);
+  CAPTURE(errors.mean / h, errors.max / h);
+  CHECK(errors.mean < 0.05 * h);
+  CHECK(errors.max < 0.5 * h);
+}
+
+TEST_CASE("a Moebius strip has distances across its seam of orientation", "[cloud]") {
+  const int around = 60, across = 6;
+  TriangleMesh mesh;
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j <= across; ++j) {
+      const double a = 2 * kPi * i / around, w = 0.3 * (2.0 * j / across - 1);
+      const double r = 1 + w * std::cos(a / 2);
+      mesh.positions.emplace_back(r * std::cos(a), r * std::sin(a), w * std::sin(a / 2));
+    }
+  const auto vertex = [&](int i, int j) -> Index {
+    return i < around ? Index(i * (across + 1) + j) : Index(across - j);
+  };
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < across; ++j) {
+      mesh.faces.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+      mesh.faces.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+    }
+  const NodeMesh nodes = make_node_mesh(mesh);
+  const double h = mean_edge(nodes);
+  const DistanceTable march = fill(*make_unfold(), whole(nodes), 4 * h);
+  const auto truth = [&](Index a, Index b) { return std::sqrt(double(march.row(a)[b])); };
+  const Errors errors = compare(cloud_table(mesh, 2.5 * h), 2.5 * h, truth);
+  CAPTURE(errors.mean / h, errors.max / h);
+  CHECK(errors.mean < 0.05 * h);
+  CHECK(errors.max < 0.5 * h);
+}
+
+TEST_CASE("cloud does not care how faces are wound", "[cloud]") {
+  const TriangleMesh mesh = blob(3);
+  TriangleMesh mixed = mesh;
+  std::mt19937 random(3);
+  for (auto& f : mixed.faces)
+    if (random() % 2) std::swap(f[0], f[1]);
+  const DistanceTable a = cloud_table(mesh, 0.4), b = cloud_table(mixed, 0.4);
+  for (std::size_t i = 0; i < a.squared.size(); ++i)
+    if (a.squared[i] < 0.15F) REQUIRE(std::abs(a.squared[i] - b.squared[i]) < 1e-4);
+}
+
+TEST_CASE("parallel sheets closer than the spacing exchange nothing", "[cloud]") {
+  const int n = 10;
+  TriangleMesh mesh = plane(n, n, 1, 1, 0.3);
+  const Index half = Index(mesh.positions.size()), faces = Index(mesh.faces.size());
+  for (Index i = 0; i < half; ++i)
+    mesh.positions.push_back(mesh.positions[i] + Vec3(0, 0, 0.5 / n));
+  for (Index f = 0; f < faces; ++f) {
+    const auto c = mesh.faces[f];
+    mesh.faces.push_back({c[0] + half, c[1] + half, c[2] + half});
+  }
+  const DistanceTable table = cloud_table(mesh, 2);
+  for (Index i = 0; i < table.rows; ++i)
+    for (Index j = 0; j < table.columns; ++j)
+      REQUIRE((table.row(i)[j] == kUnreachable) == ((i < half) != (j < half)));
+}
+
+TEST_CASE("a sheet folded to half the spacing has the distances of the flat one", "[cloud]") {
+  const int n = 12;
+  const double gap = 0.5 / n;
+  for (const int segments : {1, 2, 4}) {
+    const TriangleMesh folded = make_u_sheet(1, 1, gap, segments, n);
+    // Flat: UVs fill [0,1]^2.
+    const NodeMesh nodes = make_node_mesh(folded);
+    const double width = u_sheet_width(1, gap, segments);
+    const auto flat = [&](Index i) {
+      const SurfacePoint& p = nodes.nodes[i];
+      const Vec2 uv = folded.uv(p);
+      return Vec2(uv.x() * width, uv.y());
+    };
+    const auto truth = [&](Index a, Index b) { return (flat(a) - flat(b)).norm(); };
+    const double h = mean_edge(nodes);
+    const Errors errors = compare(cloud_table(folded, 2.5 * h), 2.5 * h, truth);
+    CAPTURE(segments, errors.mean / h, errors.max / h);
+    CHECK(errors.mean < 0.05 * h);
+    CHECK(errors.max < 0.5 * h);
+  }
+}
+
+TEST_CASE("cloud makes good distances of bad triangles", "[cloud]") {
+  // Where mesh heat fails: its faces are far from Delaunay.
+  TriangleMesh sheared = plane(20, 16, 2, 1.6, 0.2);
+  for (Vec3& p : sheared.positions) p.x() += 4 * p.y();
+  for (const TriangleMesh& mesh : {sheared, plane(20, 16, 40, 1.6, 0.3)}) {
+    const NodeMesh nodes = make_node_mesh(mesh);
+    const double h = mean_edge(nodes);
+    const Errors cloud = compare(cloud_table(mesh, 2.5 * h), 2.5 * h, straight(mesh));
+    const Errors heat = compare(fill(*make_heat(), whole(nodes), 2.5 * h), 2.5 * h, straight(mesh));
+    CAPTURE(cloud.mean / h, heat.mean / h);
+    CHECK(cloud.mean < 0.05 * h);
+    CHECK(cloud.mean < 0.5 * heat.mean);
+  }
+}
+
+TEST_CASE("cloud leaves out what has no surface, and never makes NaN", "[cloud]") {
+  TriangleMesh mesh = plane(6, 6, 1, 1, 0.2);
+  const Index count = Index(mesh.positions.size());
+  // A triangle without area, one on a point, a point alone, a triangle with its own back side.
+  mesh.positions.insert(mesh.positions.end(), {{2, 0, 0}, {3, 0, 0}, {4, 0, 0}});
+  mesh.faces.push_back({count, count + 1, count + 2});
+  mesh.positions.insert(mesh.positions.end(), {{5, 0, 0}, {5, 0, 0}, {5, 0, 0}});
+  mesh.faces.push_back({count + 3, count + 4, count + 5});
+  mesh.positions.emplace_back(6, 0, 0);
+  mesh.positions.insert(mesh.positions.end(), {{7, 0, 0}, {7.1, 0, 0}, {7, 0.1, 0}});
+  mesh.faces.push_back({count + 7, count + 8, count + 9});
+  mesh.faces.push_back({count + 7, count + 9, count + 8});
+  const NodeMesh nodes = make_node_mesh(mesh);
+  const auto backend = make_cloud(mesh, nodes);
+  CHECK(backend->skipped_nodes() == 7);
+  CHECK(make_unfold()->skipped_nodes() == 0);
+  const DistanceTable table = fill(*backend, whole(nodes), 0.8);
+  for (Index i = 0; i < table.rows; ++i)
+    for (Index j = 0; j < table.columns; ++j) {
+      const float d = table.row(i)[j];
+      REQUIRE(d >= 0);
+      const bool back_to_back = i >= count + 7 && j >= count + 7;
+      if (i == j || back_to_back)
+        REQUIRE(d < 0.1F);
+      else if (i >= count || j >= count)
+        REQUIRE(d == kUnreachable);
+      else if ((mesh.positions[i] - mesh.positions[j]).norm() < 0.75)
+        REQUIRE(d != kUnreachable);
+    }
+  // Nothing but such faces.
+  TriangleMesh empty;
+  empty.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  empty.faces = {{0, 1, 2}};
+  const DistanceTable nothing = cloud_table(empty, 9);
+  CHECK(nothing.row(0)[0] == 0);
+  CHECK(nothing.row(0)[1] == kUnreachable);
+}
+
+TEST_CASE("what faces join is reached over any set of faces", "[cloud]") {
+  // A closed noisy surface with random faces between near vertices: every kind of bad edge.
+  TriangleMesh mesh = icosphere(2);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> shift(-0.1, 0.1);
+  for (Vec3& p : mesh.positions) p += Vec3(shift(random), shift(random), shift(random));
+  for (int i = 0; i < 200; ++i) {
+    const Index a = Index(random() % mesh.positions.size()),
+                b = Index(random() % mesh.positions.size());
+    const auto c = mesh.faces[random() % 320];
+    if (a != b && a != c[0] && b != c[0]) mesh.faces.push_back({a, b, c[0]});
+  }
+  const DistanceTable table = cloud_table(mesh, 9);
+  double worst = 0;
+  for (Index i = 0; i < table.rows; ++i)
+    for (Index j = 0; j < table.columns; ++j) {
+      REQUIRE(std::isfinite(table.row(i)[j]));
+      REQUIRE(table.row(i)[j] != kUnreachable);
+      worst = std::max(worst, std::sqrt(double(table.row(i)[j])));
+    }
+  CHECK(worst < 5);
+}
+
+TEST_CASE("a patch of the cloud gives the distances that the whole gives", "[cloud]") {
+  const TriangleMesh mesh = blob(3);
+  const NodeMesh nodes = make_node_mesh(mesh);
+  const double h = mean_edge(nodes), reach = 2.5 * h;
+  const auto backend = make_cloud(mesh, nodes);
+  const DistanceTable all = fill(*backend, whole(nodes), reach);
+  double worst = 0;
+  for (const auto& core : partition_faces(nodes, std::vector<double>(nodes.faces.size(), 1), 150)) {
+    const Patch patch =
+        grow_patch(nodes, core, reach + backend->margin(reach, nodes.longest_edge()));
+    const DistanceTable table = fill(*backend, patch, reach);
+    for (Index i = 0; i < table.rows; ++i)
+      for (Index j = 0; j < table.columns; ++j) {
+        const double truth = all.row(patch.nodes[i])[patch.nodes[j]];
+        if (truth > reach * reach) continue;
+        REQUIRE(table.row(i)[j] != kUnreachable);
+        worst = std::max(worst, std::abs(std::sqrt(double(table.row(i)[j])) - std::sqrt(truth)));
+      }
+  }
+  CHECK(worst < 0.05 * h);
+}
+
+TEST_CASE("several sheets at one node are several points", "[cloud]") {
+  const TriangleMesh mesh = make_book(4, 40);
+  const NodeMesh nodes = make_node_mesh(mesh);
+  const cloud::Points points =
+      cloud::make_points(whole(nodes), cloud::make_node_geometry(mesh, nodes));
+  std::map<Index, int> count;
+  for (Index p = 0; p < points.size(); ++p) {
+    ++count[points.node[p]];
+    const Vec3& at = points.position[p];
+    CHECK(points.normal[p].norm() == Approx(1));
+    CHECK(points.is_flat[p]);
+    // In the plane of its page.
+    CHECK(std::abs(points.normal[p].y()) < 1e-12);
+    CHECK(std::abs(points.normal[p].dot(at)) < 1e-12);
+  }
+  for (const auto& [node, several] : count)
+    CHECK(several ==
+          (std::hypot(mesh.positions[node].x(), mesh.positions[node].z()) < 1e-9 ? 3 : 1));
+}
+
+TEST_CASE("points on both sides of a crease see each other over it", "[cloud]") {
+  cloud::Points points;
+  const double bend = 2.1;  // radians between the planes z = 0, x < 0 and the one that leaves x = 0
+  const Vec3 down(std::cos(bend), 0, -std::sin(bend));
+  points.position = {Vec3(-0.4, 0, 0), 0.7 * down + Vec3(0, 0.5, 0)};
+  points.normal = {Vec3(0, 0, 1), Vec3(std::sin(bend), 0, std::cos(bend))};
+  points.is_flat = {1, 1};
+  const cloud::Sight there = look(points, 0, 1, 1), back = look(points, 1, 0, 1);
+  REQUIRE(there.valid);
+  CHECK(there.length == Approx(std::hypot(1.1, 0.5)));
+  CHECK((there.offset - Vec3(1.1, 0.5, 0)).norm() < 1e-12);
+  CHECK(back.length == Approx(there.length));
+  points.normal[1] *= -1;
+  CHECK(look(points, 0, 1, -1).length == Approx(there.length));
+  points.is_flat[1] = 0;  // a rounded surface: straight
+  points.normal[1] = Vec3(0, 0, 1);
+  CHECK(look(points, 0, 1, 1).length == Approx((points.position[1] - points.position[0]).norm()));
+}
+
+TEST_CASE("the cloud's triangles cover the surface once", "[cloud]") {
+  for (const TriangleMesh& mesh :
+       {plane(12, 10, 1.2, 1, 0.35), plane(12, 10, 12, 1, 0.3), icosphere(3), make_book(6), cube(4),
+        make_folded_sheet(12, 2, 1, 160, 8)}) {
+    const cloud::Complex complex = complex_of(mesh);
+    double area = 0;
+    for (Index f = 0; f < mesh.faces.size(); ++f) area += mesh.face_area(f);
+    CHECK(complex.triangles.corners.size() == mesh.faces.size());
+    CHECK(area_of(complex.triangles) == Approx(area).epsilon(1e-9));
+    CHECK(area_of(complex.cover, complex.weights) == Approx(area).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("the Laplacian of the tufted cover is positive and sees linear functions", "[cloud]") {
+  // A sheared grid, far from Delaunay, with a second sheet on its middle line.
+  const int n = 16;
+  TriangleMesh mesh = plane(n, n, 1, 1);
+  for (Vec3& p : mesh.positions) p.x() += 1.2 * p.y();
+  const auto middle = [&](int j) { return Index(n / 2 + (n + 1) * j); };
+  const Index below = Index(mesh.positions.size());
+  for (int j = 0; j <= n; ++j)
+    mesh.positions.push_back(mesh.positions[middle(j)] - Vec3(0, 0, 0.02));
+  for (Index j = 0; j < Index(n); ++j) {
+    mesh.faces.push_back({middle(j), middle(j + 1), below + j});
+    mesh.faces.push_back({below + j, middle(j + 1), below + j + 1});
+  }
+  Patch complex = whole(make_node_mesh(mesh));
+  const std::size_t faces = complex.corners.size();
+  const double area = area_of(complex);
+  const std::vector<float> weights = cloud::make_delaunay(complex);
+  REQUIRE(weights.size() == complex.corners.size());
+  CHECK(complex.corners.size() > faces);
+  CHECK(area_of(complex, weights) == Approx(area));
+
+  // The Laplacian of the positions, by cotangents, and its entries between different nodes.
+  std::vector<Vec3> sum(mesh.positions.size(), Vec3::Zero());
+  std::map<std::pair<Index, Index>, double> entries;
+  for (std::size_t f = 0; f < complex.corners.size(); ++f) {
+    const auto& c = complex.corners[f];
+    const auto& l = complex.lengths[f];
+    for (int k = 0; k < 3; ++k) {
+      const double a = l[(k + 1) % 3], b = l[(k + 2) % 3];
+      const double cotangent =
+          weights[f] * (a * a + b * b - l[k] * l[k]) / (8 * triangle_area(l[0], l[1], l[2]));
+      const Index i = c[k], j = c[(k + 1) % 3];
+      sum[i] += cotangent * (mesh.positions[j] - mesh.positions[i]);
+      sum[j] += cotangent * (mesh.positions[i] - mesh.positions[j]);
+      if (i != j) entries[std::minmax(i, j)] += cotangent;
+    }
+  }
+  for (const auto& [ends, entry] : entries) CHECK(entry > -1e-6);
+  // Inside the sheet, away from its border and from the second sheet.
+  for (int i = 3; i < n - 2; ++i)
+    for (int j = 3; j < n - 2; ++j)
+      if (std::abs(i - n / 2) > 2) CHECK(sum[i + (n + 1) * j].norm() < 1e-6);
+}
+
+}  // namespace onmesh
