@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "onmesh/heat_system.h"
 
 namespace onmesh::cloud {
 namespace {
