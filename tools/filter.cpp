@@ -41,6 +41,9 @@ Command make_command() {
   add("radius", text(),
       "length: how far samples count (default: 2.5 sigma bilateral, 3 sigma gaussian)");
   add("distance", text("auto"), "how distances are computed: auto, unfold, heat or exact");
+  add("bridge", text("0"),
+      "length: join parts of the mesh across smaller gaps than this (default: none; parts do not "
+      "influence each other)");
   add("node-spacing", text(), "length between the nodes of the distance table (default: by sigma)");
   add("samples", text("texel"),
       "texel (every texel once) or poisson (random points of even density)");
@@ -105,6 +108,7 @@ FilterOptions filter_options(const po::variables_map& values) {
   if (has(values, "radius")) options.radius = length("radius");
   if (has(values, "spacing")) options.spacing = length("spacing");
   if (has(values, "r-coef")) options.r_coef = parse_number("--r-coef", text_of(values, "r-coef"));
+  options.bridge = bridge_of(values);
   if (has(values, "node-spacing")) options.node_spacing = length("node-spacing");
   try {
     options.distance = distance_method(text_of(values, "distance"));
@@ -137,6 +141,7 @@ json plan_json(const FilterPlan& plan) {
           {"texel_size", plan.texel_size},
           {"node_spacing", plan.node_spacing},
           {"finest_node_spacing", plan.finest_spacing},
+          {"bridge", plan.bridge > 0 ? json(plan.bridge) : json()},
           {"sample_spacing", plan.sample_spacing > 0 ? json(plan.sample_spacing) : json()},
           {"surface_area", plan.surface_area},
           {"texels", plan.texels},
@@ -156,6 +161,7 @@ json report_json(const FilterReport& report) {
   return {
       {"backend", {{"name", report.backend}, {"reason", report.backend_reason}}},
       {"instruction_set", report.instruction_set},
+      {"refinement", report.refinement},
       {"lengths",
        {{"sigma_spatial", report.sigma_spatial},
         {"radius", report.radius},
@@ -167,6 +173,7 @@ json report_json(const FilterReport& report) {
         {"samples", report.samples},
         {"nodes", report.nodes},
         {"node_faces", report.node_faces},
+        {"bridges", report.bridges},
         {"patches", report.patches},
         {"table_rows", report.table_rows},
         {"pairs", report.pairs},
@@ -211,6 +218,7 @@ void print_summary(const FilterReport& report, double seconds, std::ostream& out
       << length_text(report.radius, report.texel_size) << "; " << format_count(report.nodes)
       << " nodes in " << format_count(report.patches) << " patches, distances: " << report.backend
       << " (" << report.backend_reason << ")\n";
+  if (report.bridges > 0) out << format_count(report.bridges) << " bridges between parts\n";
   for (const StageTime& stage : report.stages) {
     out << "  " << stage.stage
         << std::string(14 - std::min<std::size_t>(stage.stage.size(), 13), ' ')
