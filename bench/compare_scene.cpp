@@ -26,35 +26,9 @@ Distances exact_truth(const TriangleMesh& mesh, double radius) {
   };
 }
 
-/// A mesh that does not depend on the node spacing.
 Subject subject(std::string name, int size, TriangleMesh mesh,
                 std::function<Distances(const TriangleMesh&, double)> truth = exact_truth) {
-  return {std::move(name), size, [mesh = std::move(mesh)](double) { return mesh; },
-          std::move(truth)};
-}
-
-/// Pages of squares of about the node spacing.
-Subject book(int size) {
-  const auto make = [size](double node_texels) {
-    const TriangleMesh coarse = make_book(1);
-    const double texel = make_texel_map(coarse, size, size).median_texel_size();
-    return make_book(std::max(1, int(std::ceil(1 / (node_texels * texel)))));
-  };
-  return {"book", size, make,
-          [](const TriangleMesh& mesh, double) { return book_distances(mesh); }};
-}
-
-/// Nodes of the filter's refinement; the mesh's own vertices where it is not manifold.
-NodeSurface make_nodes(const TriangleMesh& mesh, const RefineOptions& options) {
-  if (classify(mesh).manifold()) return refine(mesh, make_half_edge_mesh(mesh), options);
-  NodeSurface surface;
-  surface.nodes = make_node_mesh(mesh);
-  for (Index f = 0; f < mesh.faces.size(); ++f) {
-    surface.overlay.face_offsets.push_back(f);
-    surface.overlay.pieces.push_back({f, Eigen::Matrix3d::Identity()});
-  }
-  surface.overlay.face_offsets.push_back(Index(mesh.faces.size()));
-  return surface;
+  return {std::move(name), size, [mesh = std::move(mesh)] { return mesh; }, std::move(truth)};
 }
 
 std::vector<NodePoint> places_of_texels(const Samples& samples, std::size_t texels) {
@@ -103,7 +77,10 @@ Weights Scene::weights(FilterKind kind) const {
 std::vector<Subject> built_in_subjects(bool quick) {
   const auto flat = [](const TriangleMesh& mesh, double) { return sheet_distances(mesh); };
   const auto cone = [](const TriangleMesh& mesh, double) { return cone_distances(mesh, 270); };
-  if (quick) return {subject("cube", 64, make_cube(1)), book(64)};
+  const auto book = [](const TriangleMesh& mesh, double) { return book_distances(mesh); };
+  if (quick) {
+    return {subject("cube", 64, make_cube(1)), subject("book", 64, make_book(1), book)};
+  }
   // The leaves of the sheet are two texels apart, less than the nodes are.
   return {subject("U-sheet", 128, make_u_sheet(0.5, 1, 2.0 / 128), flat),
           subject("cone", 128, make_cone(270, 36, 4), cone),
@@ -112,12 +89,11 @@ std::vector<Subject> built_in_subjects(bool quick) {
           subject("torus", 192, make_torus(32, 16)),
           subject("saddle", 128, make_saddle(16)),
           subject("blob", 192, make_blob(3, 1)),
-          book(256)};
+          subject("book", 256, make_book(2), book)};
 }
 
 Subject subject_from_file(const std::string& path, int size) {
-  return {std::filesystem::path(path).stem().string(), size,
-          [path](double) { return read_mesh(path); },
+  return {std::filesystem::path(path).stem().string(), size, [path] { return read_mesh(path); },
           [path](const TriangleMesh& mesh, double radius) {
             if (!classify(mesh).manifold())
               throw InputError(path + ": not manifold, so exact distances are not known");
@@ -129,12 +105,11 @@ Scene make_scene(const Subject& subject, double sigma_texels, std::size_t texels
   Scene scene;
   scene.name = subject.name;
   scene.sigma_texels = sigma_texels;
-  const NodeSpacing in_texels = node_spacing_for(sigma_texels, 1);
   scene.texture = make_texture(subject.size, subject.size, Pattern::checker, 0.3, 7);
   FilterOptions options;
   options.sigma_spatial = {sigma_texels, Length::Unit::texel};
   options.sigma_range = kSigmaRange;
-  scene.setup = set_up_filter(subject.make(in_texels.smooth), scene.texture, options);
+  scene.setup = set_up_filter(subject.make(), scene.texture, options);
   const TriangleMesh& mesh = scene.setup.mesh;
 
   scene.points = texel_points(mesh, scene.setup.map);
@@ -148,7 +123,7 @@ Scene make_scene(const Subject& subject, double sigma_texels, std::size_t texels
   refine_options.spacing = scene.setup.plan.node_spacing;
   refine_options.finest = scene.setup.plan.finest_spacing;
   const double start = thread_seconds();
-  scene.surface = make_nodes(mesh, refine_options);
+  scene.surface = refine(mesh, scene.setup.cleaning, refine_options);
   scene.refine_seconds = thread_seconds() - start;
   scene.samples = texel_samples(scene.setup.map, scene.surface);
   scene.places = places_of_texels(scene.samples, scene.setup.map.coverage.size());

@@ -75,7 +75,7 @@ TEST_CASE("what is not manifold is refused with number, place and remedy", "[hal
   CHECK(error_of(make(p, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}})) ==
         "the mesh is not manifold: 1 edge has three or more faces, between (0, 0, 0) and (1, 0, "
         "0); split or remove the "
-        "extra faces, non-manifold input is not supported yet");
+        "extra faces");
   CHECK_THAT(
       error_of(make(p, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {2, 1, 3}, {1, 2, 5}})),
       Contains("2 edges have three or more faces, the first one between (0, 0, 0) and (1, 0, 0)"));

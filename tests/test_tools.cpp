@@ -147,7 +147,7 @@ TEST_CASE("wrong input exits with 3 and names the file", "[tools]") {
              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
              "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
              "end_header\n0 0 0\n1 0 0\n");
-  // Three pages on one spine.
+  // Three pages on one spine: fine but for exact distances.
   space.must("make-mesh book -o book.obj -t book.png --size 16");
   for (const std::string name : {"empty.obj", "nan.obj", "index.obj", "short.ply"})
     check_refused(space, "info " + name, 3, name + ":");
@@ -155,12 +155,15 @@ TEST_CASE("wrong input exits with 3 and names the file", "[tools]") {
   check_refused(space, "compare text.png good.png", 3, "text.png: ");
   check_refused(space, "map good.obj -t text.png -o m.exr", 3, "text.png: ");
   check_refused(space, "map bare.obj --resolution 8x8 -o m.exr", 3, "bare.obj: ");
-  check_refused(space, "distance book.obj --vertex 0", 3, "book.obj: the mesh is not manifold");
-  check_refused(space, "refine book.obj", 3, "book.obj: the mesh is not manifold");
+  check_refused(space, "distance book.obj --vertex 0 --distance exact", 3,
+                "book.obj: exact distances need a manifold mesh: 4 edges have more than two faces");
+  check_refused(space, "distance book.obj --vertex 0 --compare exact", 3,
+                "book.obj: exact distances need a manifold mesh");
+  check_refused(space, "filter book.obj --distance exact -o o.png", 3,
+                "--distance exact: the mesh is not manifold");
   check_refused(space, "sample bare.obj -t good.png -o s.ply", 3, "bare.obj: ");
   check_refused(space, "filter good.obj -t text.png -o o.png", 3, "text.png: ");
   check_refused(space, "filter bare.obj -t good.png -o o.png", 3, "bare.obj: ");
-  check_refused(space, "filter book.obj -o o.png", 3, "book.obj: ");
 }
 
 TEST_CASE("a picture of the model is written, also from distances", "[tools]") {

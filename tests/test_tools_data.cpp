@@ -91,7 +91,7 @@ TEST_CASE("info --strict exits with 1 and says what to repair", "[tools][info]")
   const Run book = space.run("info book.obj --strict");
   CHECK(book.code == 1);
   CHECK_THAT(book.err, Contains("nonmanifold_edges"));
-  CHECK_THAT(book.out, Contains("three or more faces") && Contains("filter will refuse it"));
+  CHECK_THAT(book.out, Contains("three or more faces") && Contains("filter will take it"));
   CHECK(space.run("info book.obj").code == 0);
 
   space.file("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

@@ -149,7 +149,7 @@ TEST_CASE("winding follows the larger area of each component, UVs move along", "
   CHECK(report.flipped == 1);
 }
 
-TEST_CASE("a Moebius strip is refused", "[triangle_mesh]") {
+TEST_CASE("a one-sided component is left as it is, the others are wound", "[triangle_mesh]") {
   TriangleMesh strip = make({}, {});
   constexpr Index n = 7;
   for (Index i = 0; i < n; ++i) {
@@ -164,7 +164,20 @@ TEST_CASE("a Moebius strip is refused", "[triangle_mesh]") {
   }
   strip.face_uvs.assign(2 * n, {kNone, kNone, kNone});
   strip.face_materials.assign(2 * n, kNone);
-  CHECK_THROWS_AS(clean(strip), InputError);
+  // And one square besides whose faces are wound against each other.
+  for (const Vec3& p : {Vec3(0, 5, 0), Vec3(1, 5, 0), Vec3(1, 6, 0), Vec3(0, 6, 0)})
+    strip.positions.push_back(p);
+  strip.faces.push_back({2 * n, 2 * n + 1, 2 * n + 2});
+  strip.faces.push_back({2 * n, 2 * n + 3, 2 * n + 2});
+  strip.face_uvs.assign(2 * n + 2, {kNone, kNone, kNone});
+  strip.face_materials.assign(2 * n + 2, kNone);
+  CleanReport report;
+  const TriangleMesh cleaned = clean(strip, &report);
+  CHECK_FALSE(report.orientable);
+  CHECK_FALSE(report.manifold());
+  CHECK(report.defects() == "part of it has only one side");
+  CHECK(report.flipped == 1);
+  for (std::size_t f = 0; f < 2 * n; ++f) CHECK(cleaned.faces[f] == strip.faces[f]);
 }
 
 TEST_CASE("a small fin is dropped, a flag on a pole is not", "[triangle_mesh]") {

@@ -11,7 +11,7 @@
 #include "command.h"
 #include "distance_compare.h"
 #include "inputs.h"
-#include "onmesh/half_edge_mesh.h"
+#include "onmesh/bridge.h"
 #include "onmesh/length.h"
 #include "onmesh/ply.h"
 
@@ -26,9 +26,9 @@ Command make_command() {
   command.synopsis = "MESH (--vertex N | --uv U,V | --point X,Y,Z) [-o OUT.ply] [options]";
   command.summary =
       "Computes geodesic distances from one point of the surface. What lies beyond the radius or\n"
-      "on another component gets NaN. The back ends unfold, heat and cloud compute between the\n"
-      "nodes of a refinement (see onmesh refine) and interpolate; exact follows every path on the\n"
-      "mesh.";
+      "on another component (unless --bridge joins it) gets NaN. The back ends unfold, heat and\n"
+      "cloud compute between the nodes of a refinement (see onmesh refine) and interpolate; exact\n"
+      "follows every path on the mesh.";
   command.examples =
       "  onmesh distance cube.obj --vertex 0 -o distance.ply\n"
       "  onmesh distance cube.obj --uv 0.2,0.6 --radius 20% --compare exact\n"
@@ -51,6 +51,8 @@ Command make_command() {
   add("sigma", text(),
       "with --compare, the Gaussian that errors are put in relation to: a length (default: the "
       "radius / 2.5, as the bilateral filter has it)");
+  add("bridge", text("0"),
+      "length: lead on to other parts across smaller gaps than this (default: none)");
   add("output,o", text(), "PLY to write: the welded mesh with a distance per vertex");
   add("nodes-ply", text(), "PLY to write: the nodes with a distance each");
   // As with the other commands, -t is the texture that is there; --texture is the result.
@@ -83,7 +85,7 @@ std::vector<double> parse_numbers(const po::variables_map& values, const std::st
 // What was asked for, checked as far as that goes without the mesh.
 struct Request {
   DistanceMethod method = DistanceMethod::automatic;
-  std::optional<Length> radius, spacing, sigma;
+  std::optional<Length> radius, spacing, sigma, bridge;
   bool compare = false, compare_all = false, needs_nodes = false, needs_atlas = false;
 };
 
@@ -105,6 +107,14 @@ Request read_request(const po::variables_map& values) {
     if (exact && !request.compare_all)
       throw UsageError("--compare exact needs another back end than --distance exact");
     request.compare = true;
+  }
+  request.bridge = bridge_of(values);
+  if (request.bridge) {
+    if (request.compare)
+      throw UsageError("--bridge: exact distances know none, so not with --compare");
+    if (exact || request.method == DistanceMethod::heat)
+      throw UsageError("--bridge: not with --distance " + std::string(name_of(request.method)));
+    request.needs_atlas |= request.bridge->unit == Length::Unit::texel;
   }
   request.needs_nodes = !exact || request.compare || has(values, "nodes-ply");
   const std::pair<const char*, std::optional<Length>*> lengths[] = {
@@ -202,8 +212,9 @@ int run_distance(const std::vector<std::string>& arguments) {
   const InputMesh input = read_input_mesh(path);
   warn(input.warnings);
   const TriangleMesh& mesh = input.cleaned;
-  if (!input.refusal.empty()) throw InputError(path + ": " + input.refusal);
-  const HalfEdgeMesh half_edges = naming(path, [&] { return make_half_edge_mesh(mesh); });
+  const bool exact = request.method == DistanceMethod::exact;
+  if ((exact || request.compare) && !input.cleaning.manifold())
+    throw InputError(path + ": exact distances need a manifold mesh: " + input.cleaning.defects());
   const DistanceSource source = find_source(values, input);
   check_interrupted();
 
@@ -220,15 +231,18 @@ int run_distance(const std::vector<std::string>& arguments) {
                                          : default_spacing(mesh, radius);
   check_interrupted();
 
-  const bool exact = request.method == DistanceMethod::exact;
   nlohmann::json seconds;
   Stopwatch watch;
   NodeSurface surface;
+  RefineReport refined;
+  Index bridges = 0;
   if (request.needs_nodes) {
     RefineOptions options;
     options.spacing = spacing;
     check_spacing(mesh, spacing);
-    surface = naming(path, [&] { return refine(mesh, half_edges, options); });
+    surface = naming(path, [&] { return refine(mesh, input.cleaning, options, &refined); });
+    if (request.bridge)
+      bridges = add_bridges(mesh, resolve(*request.bridge, texel, mesh.diagonal()), surface);
     seconds["refine"] = watch.lap();
     check_interrupted();
   }
@@ -288,6 +302,10 @@ int run_distance(const std::vector<std::string>& arguments) {
     json["radius"] = radius;
     json["spacing"] = request.needs_nodes ? nlohmann::json(spacing) : nlohmann::json();
     json["nodes"] = surface.nodes.nodes.size();
+    json["refinement"] = !request.needs_nodes
+                             ? nlohmann::json()
+                             : nlohmann::json(refined.bisected ? "bisection" : "intrinsic");
+    json["bridges"] = bridges;
     json["vertices"] = vertices;
     json["vertices_reached"] = reached;
     json["farthest"] = farthest;
@@ -303,7 +321,8 @@ int run_distance(const std::vector<std::string>& arguments) {
               << format_number(p.y()) << ", " << format_number(p.z()) << ") by " << backend;
     if (request.needs_nodes)
       std::cerr << " between " << format_count(surface.nodes.nodes.size()) << " nodes, spacing "
-                << format_number(spacing);
+                << format_number(spacing) << (refined.bisected ? ", by bisection" : "");
+    if (bridges > 0) std::cerr << " and " << format_count(bridges) << " bridges";
     std::cerr << ": " << format_count(reached) << " of " << format_count(vertices)
               << " vertices reached, farthest " << format_number(farthest) << '\n';
     if (source.off_surface > 0)

@@ -41,6 +41,9 @@ Command make_command() {
   add("radius", text(),
       "length: how far samples count (default: 2.5 sigma bilateral, 3 sigma gaussian)");
   add("distance", text("auto"), "how distances are computed: auto, unfold, heat, cloud or exact");
+  add("bridge", text("0"),
+      "length: join parts of the mesh across smaller gaps than this (default: none; parts do not "
+      "influence each other)");
   add("method", text("auto"),
       "how the sums are done: direct (pair by pair), nodes (at a cost per texel that does not "
       "depend on sigma), or auto: nodes where that is faster and within the tolerance");
@@ -121,6 +124,7 @@ FilterOptions filter_options(const po::variables_map& values) {
   if (has(values, "radius")) options.radius = length("radius");
   if (has(values, "spacing")) options.spacing = length("spacing");
   if (has(values, "r-coef")) options.r_coef = parse_number("--r-coef", text_of(values, "r-coef"));
+  options.bridge = bridge_of(values);
   if (has(values, "node-spacing")) options.node_spacing = length("node-spacing");
   try {
     options.distance = distance_method(text_of(values, "distance"));
@@ -153,6 +157,7 @@ json plan_json(const FilterPlan& plan) {
           {"texel_size", plan.texel_size},
           {"node_spacing", plan.node_spacing},
           {"finest_node_spacing", plan.finest_spacing},
+          {"bridge", plan.bridge > 0 ? json(plan.bridge) : json()},
           {"sample_spacing", plan.sample_spacing > 0 ? json(plan.sample_spacing) : json()},
           {"surface_area", plan.surface_area},
           {"texels", plan.texels},
@@ -179,6 +184,7 @@ json report_json(const FilterReport& report) {
         {"rms_error", report.rms_error},
         {"max_error", report.max_error}}},
       {"instruction_set", report.instruction_set},
+      {"refinement", report.refinement},
       {"lengths",
        {{"sigma_spatial", report.sigma_spatial},
         {"radius", report.radius},
@@ -190,6 +196,7 @@ json report_json(const FilterReport& report) {
         {"samples", report.samples},
         {"nodes", report.nodes},
         {"node_faces", report.node_faces},
+        {"bridges", report.bridges},
         {"patches", report.patches},
         {"table_rows", report.table_rows},
         {"pairs", report.pairs},
@@ -243,6 +250,7 @@ void print_summary(const FilterReport& report, double seconds, std::ostream& out
     out << "; of " << format_count(report.checked) << " values checked, RMS error "
         << number_text(report.rms_error) << ", largest " << number_text(report.max_error) << '\n';
   }
+  if (report.bridges > 0) out << format_count(report.bridges) << " bridges between parts\n";
   for (const StageTime& stage : report.stages) {
     out << "  " << stage.stage
         << std::string(14 - std::min<std::size_t>(stage.stage.size(), 13), ' ')

@@ -8,7 +8,6 @@
 #include "inputs.h"
 #include "onmesh/classify.h"
 #include "onmesh/compare.h"
-#include "onmesh/half_edge_mesh.h"
 
 namespace onmesh::tools {
 namespace {
@@ -103,13 +102,7 @@ void examine_textures(const InputMesh& input, const po::variables_map& values, F
 }
 
 // What filter refuses before it starts.
-std::string find_refusal(const InputMesh& input, const Findings& findings) {
-  if (!input.refusal.empty()) return input.refusal;
-  try {
-    make_half_edge_mesh(input.cleaned);
-  } catch (const InputError& error) {
-    return error.what();
-  }
+std::string find_refusal(const Findings& findings) {
   if (findings.mesh.faces_without_uvs == findings.mesh.faces) return "no face has UVs";
   if (findings.mesh.charts == 0 || findings.mesh.density_max == 0)
     return "no face has both UVs with an area and an area on the surface";
@@ -215,10 +208,10 @@ void print_json(const InputMesh& input, const Findings& findings) {
   json["uv_max"] = {r.uv_max.x(), r.uv_max.y()};
   json["density_min"] = r.density_min;
   json["density_max"] = r.density_max;
-  json["cleaning"] = {{"collapsed", input.cleaning.collapsed},
-                      {"duplicates", input.cleaning.duplicates},
-                      {"fins", input.cleaning.fins},
-                      {"flipped", input.cleaning.flipped}};
+  json["cleaning"] = {
+      {"collapsed", input.cleaning.collapsed}, {"duplicates", input.cleaning.duplicates},
+      {"separated", input.cleaning.separated}, {"fins", input.cleaning.fins},
+      {"flat", input.cleaning.flat},           {"flipped", input.cleaning.flipped}};
   json["materials"] = nlohmann::json::array();
   for (const Material& m : input.welded.materials) {
     std::error_code error;
@@ -284,11 +277,16 @@ void print_text(const InputMesh& input, const Findings& findings) {
   row("diagonal", format_number(r.diagonal));
   row("mean edge", format_number(input.welded.mean_edge_length()));
   const CleanReport& c = input.cleaning;
-  if (c.collapsed + c.duplicates + c.fins + c.flipped > 0) {
+  if (c.collapsed + c.duplicates + c.fins + c.flat + c.flipped > 0) {
     row("filtering", "leaves out " + format_count(c.collapsed) + " collapsed, " +
-                         format_count(c.duplicates) + " duplicate and " + format_count(c.fins) +
-                         " fin faces, turns over " + format_count(c.flipped));
+                         format_count(c.duplicates) + " duplicate, " + format_count(c.fins) +
+                         " fin and " + format_count(c.flat) + " flat faces, turns over " +
+                         format_count(c.flipped));
   }
+  if (c.separated > 0) {
+    row("layers", format_count(c.separated) + " faces are filtered as sheets of their own");
+  }
+  if (!c.manifold()) row("nodes", "by bisection: " + c.defects());
   std::cout << "atlas\n";
   row("charts", format_count(r.charts));
   row("without UVs", format_count(r.faces_without_uvs) + " faces");
@@ -335,7 +333,7 @@ int run_info(const std::vector<std::string>& arguments) {
   check_interrupted();
   examine_textures(input, values, findings);
   check_interrupted();
-  findings.refusal = find_refusal(input, findings);
+  findings.refusal = find_refusal(findings);
   find_problems(input, findings);
   if (flag_of(values, "json")) {
     print_json(input, findings);

@@ -38,14 +38,7 @@ InputMesh read_input_mesh(const std::string& path) {
   mesh.path = path;
   mesh.as_read = read_mesh(path, &mesh.warnings);
   mesh.welded = weld(mesh.as_read);
-  try {
-    mesh.cleaned = clean(mesh.welded, &mesh.cleaning);
-  } catch (const InputError& error) {
-    mesh.refusal = error.what();
-    mesh.cleaned = mesh.welded;
-    mesh.cleaning = {};
-    for (Index f = 0; f < mesh.welded.faces.size(); ++f) mesh.cleaning.kept.push_back(f);
-  }
+  mesh.cleaned = clean(mesh.welded, &mesh.cleaning);
   return mesh;
 }
 
@@ -138,6 +131,11 @@ std::string lower_extension(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
   for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
   return extension;
+}
+
+std::optional<Length> bridge_of(const po::variables_map& values) {
+  const std::string width = text_of(values, "bridge");
+  return width == "0" ? std::nullopt : std::optional(parse_length("--bridge", width));
 }
 
 std::string format_number(double value) {

@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "onmesh/image.h"
+#include "onmesh/length.h"
 #include "onmesh/texel_map.h"
 #include "onmesh/triangle_mesh.h"
 
@@ -16,9 +17,8 @@ namespace onmesh::tools {
 struct InputMesh {
   std::string path;
   TriangleMesh as_read, welded;  ///< the same faces in the same order
-  TriangleMesh cleaned;          ///< as clean() leaves it; welded if that is refused
-  CleanReport cleaning;          ///< kept is filled in either case
-  std::string refusal;           ///< why clean() refused it, empty if it did not
+  TriangleMesh cleaned;          ///< as clean() leaves it
+  CleanReport cleaning;
   std::vector<std::string> warnings;
 };
 
@@ -69,6 +69,9 @@ void check_writable_file(const std::string& path);
 
 /// ".exr", also for "A.EXR".
 std::string lower_extension(const std::string& path);
+
+/// The length that --bridge gives, nothing for none (0, the default).
+std::optional<Length> bridge_of(const po::variables_map& values);
 
 /// "%.6g", the way numbers are printed for people.
 std::string format_number(double value);

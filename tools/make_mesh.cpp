@@ -98,6 +98,13 @@ const Shape kShapes[] = {
      }},
     {"book", "three pages on one spine (not manifold); --segments 4, --angle 40", 0,
      [](Parameters& p) { return make_book(p.integer("segments", 4), p.number("angle", 40)); }},
+    {"bow-tie", "two squares that share a corner (not manifold); --segments 4", 0,
+     [](Parameters& p) { return make_bow_tie(p.integer("segments", 4)); }},
+    {"moebius", "a developable one-sided strip; --segments 4, --length 8, --width 1", 0,
+     [](Parameters& p) {
+       const double length = p.number("length", 8), width = p.number("width", 1);
+       return make_moebius(p.integer("segments", 4), length, width);
+     }},
     {"chest", "a box and a lid apart from it; --segments 1, --gap 0.05", 0,
      [](Parameters& p) { return make_chest(p.integer("segments", 1), p.number("gap", 0.05)); }},
 };
@@ -106,6 +113,7 @@ const Shape kShapes[] = {
 const std::pair<const char*, const char*> kShapeOptions[] = {
     {"segments", "segments per side or around"},
     {"width", "width, mesh units"},
+    {"length", "length around, mesh units"},
     {"height", "height, mesh units"},
     {"leaves", "leaves of the accordion"},
     {"leaf", "length of a leaf, mesh units"},
@@ -179,6 +187,7 @@ Command make_command() {
   add("noise", text(), "amplitude of the noise per texel, 0 to 1 (default: 0; noisy-cube: 0.25)");
   add("seed", text("1"), "for noise, the patterns and the blob");
   for (const auto& [name, help] : kShapeOptions) add(name, text(), help);
+  add("soup", flag(), "write loose triangles: every face gets vertices and UVs of its own");
   command.positional.add("shape", 1);
   return command;
 }
@@ -218,7 +227,7 @@ int run_make_mesh(const std::vector<std::string>& arguments) {
     std::fill(mesh.face_materials.begin(), mesh.face_materials.end(), 0);
   }
   check_interrupted();
-  write_obj(output, mesh);
+  write_obj(output, flag_of(values, "soup") ? loosen(mesh) : mesh);
   return 0;
 }
 

@@ -22,7 +22,9 @@ Command make_command() {
   command.summary =
       "Refines the mesh's intrinsic triangulation: Delaunay flips, then circumcentres until every "
       "face is\n"
-      "small and round enough. The input's vertices stay; the surface does not change at all.";
+      "small and round enough. A mesh that is not manifold is refined by bisection inside its "
+      "faces\n"
+      "instead. The input's vertices stay; the surface does not change at all.";
   command.examples =
       "  onmesh refine cube.obj --spacing 0.1 -o nodes.ply\n"
       "  onmesh refine scan.obj --spacing 1% --json\n";
@@ -32,7 +34,7 @@ Command make_command() {
   add("spacing", text("2%"), "distance between nodes, mesh units or % of the diagonal");
   add("finest", text(), "spacing at cones, creases and reflex corners (default: a quarter)");
   add("growth", text("0.35"), "growth of the spacing away from them, per unit of distance");
-  add("min-angle", text("25"), "smallest angle to leave, degrees, 0 to 30");
+  add("min-angle", text("25"), "smallest angle to leave, degrees, 0 to 30 (manifold meshes)");
   add("json", flag(), "statistics as JSON on stdout");
   add("quiet", flag(), "no summary");
   command.positional.add("mesh", 1);
@@ -56,7 +58,7 @@ void write_nodes(const std::string& path, const TriangleMesh& mesh, const NodeMe
     const double row[] = {p.x(), p.y(), p.z(), uv.x(), uv.y()};
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
   }
-  write_ply(path, columns, nodes.faces, {"nodes of an intrinsic triangulation by onmesh"});
+  write_ply(path, columns, nodes.faces, {"nodes of a refined triangulation by onmesh"});
 }
 
 }  // namespace
@@ -73,8 +75,13 @@ int run_refine(const std::vector<std::string>& arguments) {
 
   std::vector<std::string> warnings;
   const TriangleMesh read = weld(read_mesh(path, &warnings));
-  const TriangleMesh mesh = naming(path, [&] { return clean(read); });
+  CleanReport cleaning;
+  const TriangleMesh mesh = clean(read, &cleaning);
   warn(warnings);
+  if (!cleaning.manifold() && !values["min-angle"].defaulted()) {
+    throw UsageError("--min-angle: " + path + " is not manifold (" + cleaning.defects() +
+                     "), and bisection keeps no angle bound");
+  }
   options.spacing = length_of(values, "spacing", mesh.diagonal());
   if (has(values, "finest")) {
     options.finest = length_of(values, "finest", mesh.diagonal());
@@ -85,7 +92,7 @@ int run_refine(const std::vector<std::string>& arguments) {
   check_interrupted();
   RefineReport report;
   const NodeSurface surface =
-      naming(path, [&] { return refine(mesh, make_half_edge_mesh(mesh), options, &report); });
+      naming(path, [&] { return refine(mesh, cleaning, options, &report); });
   check_interrupted();
   if (has(values, "output")) write_nodes(text_of(values, "output"), mesh, surface.nodes);
 
@@ -102,6 +109,7 @@ int run_refine(const std::vector<std::string>& arguments) {
     json["input_vertices"] = report.input_vertices;
     json["nodes"] = report.nodes;
     json["faces"] = report.faces;
+    json["refinement"] = report.bisected ? "bisection" : "intrinsic";
     json["flips"] = report.flips;
     json["insertions"] = report.insertions;
     json["smallest_angle_degrees"] = report.smallest_angle_degrees;
@@ -114,7 +122,9 @@ int run_refine(const std::vector<std::string>& arguments) {
               << format_count(report.nodes) << " nodes, " << format_count(report.faces)
               << " faces (spacing " << options.spacing << ", mean edge " << mean_edge
               << ", smallest angle " << report.smallest_angle_degrees << " degrees, "
-              << format_count(report.flips) << " flips)\n";
+              << (report.bisected ? "by bisection: " + cleaning.defects()
+                                  : format_count(report.flips) + " flips")
+              << ")\n";
   }
   return 0;
 }

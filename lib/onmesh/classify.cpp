@@ -11,10 +11,6 @@
 namespace onmesh {
 namespace {
 
-/// Faces and UV triangles with less than this of their longest edge's square have no area: rounding
-/// of their corners alone gives as much.
-constexpr double kNoArea = 1e-12;
-
 /// Number the sets of `roots` in the order of their first face; kNone stays.
 std::vector<Index> number_roots(std::vector<Index> roots, Index& count) {
   Index highest = 0;
@@ -29,22 +25,6 @@ std::vector<Index> number_roots(std::vector<Index> roots, Index& count) {
     root = number[root];
   }
   return roots;
-}
-
-bool is_degenerate(const TriangleMesh& mesh, Index face) {
-  if (has_repeated_vertex(mesh.faces[face])) return true;
-  const auto c = mesh.corners(face);
-  const double longest = std::max(
-      {(c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(), (c[0] - c[2]).squaredNorm()});
-  return !(2 * mesh.face_area(face) > kNoArea * longest);
-}
-
-/// Signed area of the UV triangle; 0 if it is nothing but rounding.
-double uv_area(const std::array<Vec2, 3>& c) {
-  const Vec2 a = c[1] - c[0], b = c[2] - c[0];
-  const double area = (a.x() * b.y() - a.y() * b.x()) / 2;
-  const double longest = std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()});
-  return 2 * std::abs(area) > kNoArea * longest ? area : 0;
 }
 
 /// The UV index that a face has at a vertex.
@@ -138,11 +118,11 @@ void measure_uvs(const TriangleMesh& mesh, MeshReport& r) {
       r.uv_max = first ? uv : Vec2(r.uv_max.cwiseMax(uv));
       first = false;
     }
-    const double uv = uv_area(c), area = mesh.face_area(f);
+    const double uv = mesh.uv_area(f), area = mesh.face_area(f);
     if (uv == 0) ++r.degenerate_uvs;
     if (uv < 0) ++r.mirrored_faces;
     const double density = std::sqrt(std::abs(uv) / area);
-    if (uv == 0 || !(area > 0) || is_degenerate(mesh, f) || !std::isfinite(density)) continue;
+    if (uv == 0 || !(area > 0) || mesh.is_degenerate(f) || !std::isfinite(density)) continue;
     densities.push_back({density, area});
     total += area;
   }
@@ -181,7 +161,7 @@ MeshReport classify(const TriangleMesh& welded) {
   r.diagonal = welded.diagonal();
   for (Index f = 0; f < r.faces; ++f) {
     r.surface_area += welded.face_area(f);
-    if (is_degenerate(welded, f)) ++r.degenerate_faces;
+    if (welded.is_degenerate(f)) ++r.degenerate_faces;
   }
   for (const Index first : earlier_copies(welded)) r.duplicate_faces += first != kNone;
   const EdgeTable edges(welded);
@@ -202,20 +182,23 @@ MeshReport classify(const TriangleMesh& welded) {
 std::vector<std::string> advice(const MeshReport& r) {
   std::vector<std::string> lines;
   if (r.nonmanifold_edges > 0) {
-    lines.push_back(count_of(r.nonmanifold_edges, "edge has", "edges have") +
-                    " three or more faces: split or remove the extra faces (exact duplicates are "
-                    "dropped anyway); "
-                    "other non-manifold input cannot be filtered yet");
+    lines.push_back(
+        count_of(r.nonmanifold_edges, "edge has", "edges have") +
+        " three or more faces: the filter goes on into each of them (nodes by bisection); "
+        "split or remove the extra faces if they are not meant to be there");
   }
   if (r.nonmanifold_vertices > 0) {
     lines.push_back(
         count_of(r.nonmanifold_vertices, "vertex joins", "vertices join") +
-        " parts of the surface that share no edge there: give each part a vertex of its own");
+        " parts of the surface that share no edge there: the filter goes on through it; give each "
+        "part a vertex of its own if they should be apart");
   }
   if (!r.orientable) {
     lines.push_back(
-        "part of the surface has only one side, like a Moebius strip: cut it open along a line of "
-        "edges");
+        "part of the surface has only one side, like a Moebius strip: it is filtered as it is "
+        "(nodes "
+        "by bisection), but normals cannot agree on it; cut it open along a line of edges if that "
+        "is not meant");
   } else if (r.inconsistent_edges > 0) {
     lines.push_back(
         count_of(r.inconsistent_edges, "edge has", "edges have") +
@@ -227,10 +210,10 @@ std::vector<std::string> advice(const MeshReport& r) {
         " no area and cannot carry texture: remove them if they are not meant to be there");
   }
   if (r.duplicate_faces > 0) {
-    lines.push_back(count_of(r.duplicate_faces, "face repeats", "faces repeat") +
-                    " an earlier one, like the back of two-sided cloth, and will be left out: give "
-                    "the back side "
-                    "vertices of its own if it has a texture of its own");
+    lines.push_back(
+        count_of(r.duplicate_faces, "face repeats", "faces repeat") +
+        " an earlier one, like the back of two-sided cloth: those with UVs of their own are "
+        "filtered as sheets of their own, the others are left out");
   }
   const Index textured = r.faces - r.faces_without_uvs;
   if (textured == 0) {

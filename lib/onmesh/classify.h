@@ -37,7 +37,7 @@ struct MeshReport {
   std::vector<Index> component_of_face;
   std::vector<Index> chart_of_face;  ///< kNone where UVs are missing or a vertex is repeated
 
-  /// Fit for the half-edge core after clean(): no non-manifold edge or vertex, orientable.
+  /// No non-manifold edge or vertex, orientable. (clean() may still mend what this counts.)
   bool manifold() const {
     return nonmanifold_edges == 0 && nonmanifold_vertices == 0 && orientable;
   }

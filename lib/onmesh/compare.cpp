@@ -94,7 +94,10 @@ SeamError seam_error(const TriangleMesh& mesh, const TexelMap& map, const Image&
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     for (int k = 0; k < 3; ++k) {
       const Index other = walk.across(f, k);
-      if (other == kNone || other / 3 < f || walk.uvs_agree(f, k)) continue;
+      if (other == kNone || walk.across_in_chart(f, k) == other) continue;
+      // Once, unless the surface branches and the way back leads elsewhere.
+      const bool mutual = walk.across(other / 3, int(other % 3)) == 3 * f + Index(k);
+      if (mutual && other / 3 < f) continue;
       if (map.chart_of_face[f] == kNone || map.chart_of_face[other / 3] == kNone) continue;
       seams.push_back({3 * f + Index(k), other});
     }

@@ -92,6 +92,7 @@ Winding consistent_winding(const TriangleMesh& mesh, const EdgeTable& edges) {
     component.assign(1, seed);
     seen[seed] = true;
     double kept_area = 0, flipped_area = 0;
+    bool one_sided = false;
     for (std::size_t i = 0; i < component.size(); ++i) {
       const Index f = component[i];
       (result.flip[f] ? flipped_area : kept_area) += mesh.face_area(f);
@@ -102,12 +103,15 @@ Winding consistent_winding(const TriangleMesh& mesh, const EdgeTable& edges) {
           seen[n.face] = true;
           result.flip[n.face] = flip;
           component.push_back(n.face);
-        } else if (result.flip[n.face] != flip && result.conflict == kNone) {
-          result.conflict = f;
+        } else if (result.flip[n.face] != flip) {
+          one_sided = true;
+          result.conflict = std::min(result.conflict, f);
         }
       }
     }
-    if (flipped_area > kept_area) {
+    if (one_sided) {
+      for (const Index f : component) result.flip[f] = false;
+    } else if (flipped_area > kept_area) {
       for (const Index f : component) result.flip[f] = !result.flip[f];
     }
   }

@@ -54,7 +54,8 @@ struct Winding {
   Index conflict = kNone;  ///< a face of a component that cannot be wound; kNone = all can
 };
 
-/// The smaller area of every component (over edges with two faces) is what is turned over.
+/// The smaller area of every component (over edges with two faces) is what is turned over; nothing
+/// of a component that cannot be wound.
 Winding consistent_winding(const TriangleMesh& mesh, const EdgeTable& edges);
 
 /// Disjoint sets; the representative of a set is its lowest member.

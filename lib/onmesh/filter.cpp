@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "onmesh/bridge.h"
 #include "onmesh/error.h"
 #include "onmesh/filter_patches.h"
 #include "onmesh/filter_setup.h"
@@ -250,7 +251,10 @@ Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& o
   RefineOptions refine_options;
   refine_options.spacing = plan.node_spacing;
   refine_options.finest = plan.finest_spacing;
-  NodeSurface surface = refine(setup.mesh, make_half_edge_mesh(setup.mesh), refine_options);
+  RefineReport refined;
+  NodeSurface surface = refine(setup.mesh, setup.cleaning, refine_options, &refined);
+  report.refinement = refined.bisected ? "bisection" : "intrinsic";
+  if (plan.bridge > 0) report.bridges = add_bridges(setup.mesh, plan.bridge, surface);
   report.nodes = surface.nodes.nodes.size();
   report.node_faces = surface.nodes.faces.size();
   stages.end();
@@ -280,9 +284,12 @@ Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& o
     report.warnings.push_back(std::to_string(backend->skipped_nodes()) +
                               " points have no face with area around them and are left out");
   }
-  report.backend_reason = options.distance == DistanceMethod::automatic
-                              ? "the default for manifold meshes"
-                              : "asked for";
+  report.backend_reason =
+      options.distance == DistanceMethod::automatic
+          ? (setup.cleaning.manifold()
+                 ? "the default for manifold meshes"
+                 : "the default for meshes that are not manifold: " + setup.cleaning.defects())
+          : "asked for";
   report.instruction_set = kernel_target();
   Image image = texture;
   std::vector<float> packed;

@@ -35,6 +35,7 @@ struct FilterOptions {
   std::optional<Length> spacing;       ///< Poisson spacing; default: every texel is hit
   std::optional<double> r_coef;        ///< Poisson spacing in mean edge lengths, > 0
   std::optional<Length> node_spacing;  ///< default: the spacing rule
+  std::optional<Length> bridge;        ///< > 0: join components across smaller gaps (bridge.h)
   std::uint64_t seed = 1;              ///< of the Poisson samples
   int threads = 0;                     ///< 0 = all
   int gutter = 2;                      ///< rings of 8-neighbours, >= 0
@@ -49,6 +50,7 @@ struct FilterPlan {
   double node_spacing = 0, finest_spacing = 0;
   double sample_spacing = 0;  ///< Poisson mode only
   double texel_size = 0, diagonal = 0, surface_area = 0;
+  double bridge = 0;             ///< 0 = none
   std::uint64_t texels = 0;      ///< targets, each claim of a texel counted
   std::uint64_t overlapped = 0;  ///< texels claimed more than once
   std::uint64_t nodes = 0, samples = 0, memory_bytes = 0;  ///< estimates
@@ -63,11 +65,13 @@ struct StageTime {
 
 struct FilterReport {
   std::string backend, backend_reason, instruction_set;
+  std::string refinement;  ///< "intrinsic", or "bisection" where the mesh is not manifold
   /// Mesh units; sample_spacing in Poisson mode only.
   double sigma_spatial = 0, radius = 0, node_spacing = 0, sample_spacing = 0, texel_size = 0;
   std::uint64_t texels = 0, samples = 0, nodes = 0, node_faces = 0, patches = 0;
   std::uint64_t pairs = 0;           ///< (target, sample) pairs summed one by one
   std::uint64_t table_rows = 0;      ///< nodes that distances were computed from, all patches
+  std::uint64_t bridges = 0;         ///< over gaps between components
   std::uint64_t overlapped = 0;      ///< texels claimed more than once
   std::uint64_t gutter = 0;          ///< texels filled around the charts
   std::uint64_t without_sample = 0;  ///< targets that kept their values
@@ -84,10 +88,12 @@ struct FilterReport {
 
 /// Filter `texture` on the surface of `mesh` (DESIGN: definition of the filter in README).
 /// Same input and options give identical values for any thread count.
+/// Any triangles will do: edges with many faces, bow ties and one-sided parts are filtered across;
+/// components do not influence each other unless they are bridged.
 /// \pre mesh is as read; it is welded and cleaned here
-/// \throw InputError if no face carries a texel, the mesh is not manifold, the exact distances
-/// would
-///   take more than an hour, or (Overlap::error) a texel is claimed twice
+/// \throw InputError if no face carries a texel, exact distances are asked for on a mesh that is
+/// not
+///   manifold or would take more than an hour, or (Overlap::error) a texel is claimed twice
 /// \throw UsageError for options outside their domain or ignored by the mode chosen
 Image filter(const TriangleMesh& mesh, const Image& texture, const FilterOptions& options,
              FilterReport* report = nullptr, const Progress& progress = {});

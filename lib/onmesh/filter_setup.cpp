@@ -26,6 +26,13 @@ void check_options(const TriangleMesh& mesh, const FilterOptions& options) {
   if (options.r_coef) require_positive("--r-coef", *options.r_coef);
   if (options.node_spacing) require_positive("--node-spacing", options.node_spacing->value);
   require_positive("--tolerance", options.tolerance);
+  if (options.bridge) {
+    require_positive("--bridge", options.bridge->value);
+    // Bridges are no surface that heat could flow over, nor are they in the mesh.
+    if (options.distance == DistanceMethod::heat || options.distance == DistanceMethod::exact) {
+      throw UsageError("--bridge: not with --distance " + std::string(name_of(options.distance)));
+    }
+  }
   if (options.spacing && options.r_coef) {
     throw UsageError("--spacing and --r-coef exclude each other");
   }
@@ -40,14 +47,23 @@ void check_options(const TriangleMesh& mesh, const FilterOptions& options) {
   }
 }
 
-std::string faces_text(Index count) {
-  return std::to_string(count) + (count == 1 ? " face" : " faces");
+std::string count_text(Index count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string faces_text(Index count) { return count_text(count, "face", "faces"); }
+
+Index count_unused(const TriangleMesh& mesh) {
+  std::vector<bool> used(mesh.positions.size(), false);
+  for (const auto& face : mesh.faces) {
+    for (const Index v : face) used[v] = true;
+  }
+  return static_cast<Index>(std::count(used.begin(), used.end(), false));
 }
 
 /// Weld and clean; `faces` follows from the mesh as given to the clean one.
-TriangleMesh cleaned(const TriangleMesh& mesh, std::vector<bool>& faces,
+TriangleMesh cleaned(const TriangleMesh& mesh, std::vector<bool>& faces, CleanReport& report,
                      std::vector<std::string>& warnings) {
-  CleanReport report;
   TriangleMesh clean_mesh = clean(weld(mesh), &report);
   if (!faces.empty()) {
     std::vector<bool> kept(report.kept.size());
@@ -58,20 +74,41 @@ TriangleMesh cleaned(const TriangleMesh& mesh, std::vector<bool>& faces,
     warnings.push_back(faces_text(dropped) +
                        " dropped: repeated vertices, duplicates of other faces, or fins");
   }
+  if (report.flat > 0) {
+    warnings.push_back(faces_text(report.flat) + " skipped: parts of the mesh without any area");
+  }
+  if (const Index unused = count_unused(mesh); unused > 0) {
+    warnings.push_back(count_text(unused, "vertex", "vertices") + " skipped: no face uses them");
+  }
+  if (report.separated > 0) {
+    warnings.push_back(faces_text(report.separated) +
+                       " on the same vertices as others, with texels of their own: filtered as "
+                       "sheets of their own");
+  }
   if (report.flipped > 0) warnings.push_back(faces_text(report.flipped) + " turned over");
+  if (!report.manifold()) {
+    warnings.push_back("the mesh is not manifold: " + report.defects() +
+                       "; it is filtered across them, with nodes by bisection");
+  }
   return clean_mesh;
 }
 
 void require_claims(const TriangleMesh& mesh, const TexelMap& map, const std::vector<bool>& faces) {
   if (!map.claims.empty()) return;
   if (mesh.faces.empty()) throw InputError("the mesh has no faces to filter on");
-  bool any_uvs = false, any_face = faces.empty();
+  bool any_uvs = false, any_uv_area = false, any_face = faces.empty();
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     any_uvs = any_uvs || mesh.has_uvs(f);
+    any_uv_area = any_uv_area || (mesh.has_uvs(f) && mesh.uv_area(f) != 0);
     any_face = any_face || faces[f];
   }
   if (!any_uvs) {
     throw InputError("the mesh has no UVs, so no texture can be filtered on it");
+  }
+  if (!any_uv_area) {
+    throw InputError(
+        "the UVs of no face have any area (each is a spot or a line in the texture), so there is "
+        "nothing to filter");
   }
   throw InputError(any_face ? "no texel of the texture lies on a face with area"
                             : "no face of the mesh carries the texture");
@@ -112,7 +149,7 @@ NodeSpacing node_spacing_for(double sigma, double texel_size) {
 FilterPlan in_mesh_units(FilterPlan plan, double unit) {
   for (double* length :
        {&plan.sigma_spatial, &plan.radius, &plan.node_spacing, &plan.finest_spacing,
-        &plan.sample_spacing, &plan.texel_size, &plan.diagonal}) {
+        &plan.sample_spacing, &plan.texel_size, &plan.diagonal, &plan.bridge}) {
     *length *= unit;
   }
   plan.surface_area *= unit * unit;
@@ -128,7 +165,11 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   FilterSetup setup;
   FilterPlan& plan = setup.plan;
   std::vector<bool> faces = options.faces;
-  setup.mesh = cleaned(mesh, faces, plan.warnings);
+  setup.mesh = cleaned(mesh, faces, setup.cleaning, plan.warnings);
+  if (options.distance == DistanceMethod::exact && !setup.cleaning.manifold()) {
+    throw InputError("--distance exact: the mesh is not manifold (" + setup.cleaning.defects() +
+                     "); use unfold");
+  }
   setup.unit = std::exp2(std::ceil(std::log2(std::max(setup.mesh.diagonal(), 1e-300))));
   for (Vec3& p : setup.mesh.positions) p /= setup.unit;
   setup.map = make_texel_map(setup.mesh, texture.width, texture.height, {options.wrap, faces});
@@ -149,6 +190,7 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   plan.radius = options.radius
                     ? resolved(*options.radius)
                     : plan.sigma_spatial * (options.kind == FilterKind::bilateral ? 2.5 : 3.0);
+  if (options.bridge) plan.bridge = resolved(*options.bridge);
   const NodeSpacing rule = node_spacing_for(plan.sigma_spatial, plan.texel_size);
   plan.node_spacing = options.node_spacing ? resolved(*options.node_spacing) : rule.smooth;
   plan.finest_spacing = options.node_spacing ? plan.node_spacing / 4 : rule.finest;

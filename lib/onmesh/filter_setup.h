@@ -7,6 +7,7 @@ namespace onmesh {
 
 struct FilterSetup {
   TriangleMesh mesh;  ///< welded and clean, in working units
+  CleanReport cleaning;
   TexelMap map;
   FilterPlan plan;  ///< in working units
   /// Mesh units per working unit: the power of two that brings the mesh's diagonal near 1, so that

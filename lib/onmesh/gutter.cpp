@@ -206,9 +206,10 @@ void GutterFill::copy_nearest_claim(Index face, const Vec2& pixel, Index texel) 
       best = &claim;
     }
     if (best != nullptr) return copy(*best);
-    for (int k = 0; k < 3; ++k)
-      if (walk_.uvs_agree(f, k) && seen.insert(walk_.across(f, k) / 3).second)
-        open.push_back(walk_.across(f, k) / 3);
+    for (int k = 0; k < 3; ++k) {
+      const Index side = walk_.across_in_chart(f, k);
+      if (side != kNone && seen.insert(side / 3).second) open.push_back(side / 3);
+    }
   }
   copy(first);
 }

@@ -21,7 +21,7 @@ std::string place(const TriangleMesh& mesh, Index vertex) {
                          const std::string& where, const char* remedy) {
   throw InputError("the mesh is not manifold: " + std::to_string(count) + " " +
                    (count == 1 ? one : many) + (count == 1 ? ", " : ", the first one ") + where +
-                   "; " + remedy + ", non-manifold input is not supported yet");
+                   "; " + remedy);
 }
 
 }  // namespace

@@ -20,8 +20,12 @@ struct NodeMesh {
   /// neighbours[f][k] = 3 g + l: edge k of face f is glued to edge l of face g, and to nothing
   /// else. kNone: boundary, or an edge with three or more faces. May be empty; then edges are told
   /// apart by their nodes and lengths, which fails only for different edges that have both in
-  /// common.
+  /// common. Bridges do not count.
   std::vector<std::array<Index, 3>> neighbours;
+
+  /// So many of the last faces are bridges between components (bridge.h): paths cross them, but
+  /// they are no part of the surface, carry no texels and are in no overlay.
+  Index bridge_faces = 0;
 
   /// Fill node_offsets and node_faces from faces.
   void build_incidence();

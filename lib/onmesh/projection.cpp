@@ -63,6 +63,11 @@ class ClosestFaces {
 
   ClosestFaces(const Tree& tree, const Vec3& point) : tree_(tree), point_(point) {}
 
+  /// Only faces within `limit` that are not labelled `label`.
+  ClosestFaces(const Tree& tree, const Vec3& point, double limit, const std::vector<Index>& labels,
+               Index label)
+      : tree_(tree), point_(point), labels_(&labels), label_(label), limit_(limit * limit) {}
+
   bool go_further() const { return true; }
 
   template <typename Query, typename Node>
@@ -81,27 +86,31 @@ class ClosestFaces {
     const auto i = std::size_t(primitive.id() - tree_.triangles.begin());
     Candidate c;
     c.face = tree_.faces[i];
+    if (labels_ != nullptr && (*labels_)[c.face] == label_) return;
     c.barycentric = closest_barycentric(tree_.corners[i], point_);
     c.squared_distance = (combine(tree_.corners[i], c.barycentric) - point_).squaredNorm();
     if (c.squared_distance > limit_) return;
     if (c.squared_distance < best_) {
       best_ = c.squared_distance;
       const double d = std::sqrt(best_) * (1 + 1e-12) + tree_.rounding;
-      limit_ = d * d;
+      limit_ = std::min(limit_, d * d);
     }
     found_.push_back(c);
   }
 
-  SurfacePoint result() const {
+  std::optional<SurfacePoint> result() const {
     const Candidate* lowest = nullptr;
     for (const Candidate& c : found_)
       if (c.squared_distance <= limit_ && (!lowest || c.face < lowest->face)) lowest = &c;
-    return {lowest->face, lowest->barycentric};
+    if (lowest == nullptr) return std::nullopt;
+    return SurfacePoint{lowest->face, lowest->barycentric};
   }
 
  private:
   const Tree& tree_;
   const Vec3 point_;
+  const std::vector<Index>* const labels_ = nullptr;
+  const Index label_ = kNone;
   double best_ = std::numeric_limits<double>::infinity();
   double limit_ = std::numeric_limits<double>::infinity();
   std::vector<Candidate> found_;
@@ -134,6 +143,14 @@ Projection& Projection::operator=(Projection&&) noexcept = default;
 
 SurfacePoint Projection::closest(const Vec3& point) const {
   ClosestFaces<Tree> search(*tree_, point);
+  tree_->aabb.traversal_with_priority(to_cgal(point), search);
+  return *search.result();
+}
+
+std::optional<SurfacePoint> Projection::closest_other(const Vec3& point, double limit,
+                                                      const std::vector<Index>& labels,
+                                                      Index label) const {
+  ClosestFaces<Tree> search(*tree_, point, limit, labels, label);
   tree_->aabb.traversal_with_priority(to_cgal(point), search);
   return search.result();
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "onmesh/triangle_mesh.h"
 
@@ -18,6 +20,11 @@ class Projection {
 
   /// Closest point of the surface; the lowest face index among equally close faces.
   SurfacePoint closest(const Vec3& point) const;
+
+  /// The same among the faces whose label is not `label`, if any of them is within `limit`.
+  /// \param labels one per face of the mesh
+  std::optional<SurfacePoint> closest_other(const Vec3& point, double limit,
+                                            const std::vector<Index>& labels, Index label) const;
 
  private:
   struct Tree;

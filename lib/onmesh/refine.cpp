@@ -8,6 +8,7 @@
 
 #include "onmesh/error.h"
 #include "onmesh/intrinsic.h"
+#include "onmesh/refine_soup.h"
 
 namespace onmesh {
 namespace {
@@ -297,6 +298,12 @@ NodeSurface refine(const TriangleMesh& mesh, const HalfEdgeMesh& half_edges,
   local.faces = static_cast<Index>(surface.nodes.faces.size());
   if (report != nullptr) *report = local;
   return surface;
+}
+
+NodeSurface refine(const TriangleMesh& mesh, const CleanReport& cleaning,
+                   const RefineOptions& options, RefineReport* report) {
+  return cleaning.manifold() ? refine(mesh, make_half_edge_mesh(mesh), options, report)
+                             : refine_soup(mesh, options, report);
 }
 
 }  // namespace onmesh

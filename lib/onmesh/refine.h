@@ -18,12 +18,19 @@ struct RefineOptions {
 struct RefineReport {
   Index input_vertices = 0, nodes = 0, faces = 0;
   Index flips = 0, insertions = 0;
-  double smallest_angle_degrees = 0;  ///< over faces without a vertex that forces it
+  double smallest_angle_degrees = 0;  ///< intrinsic: over faces without a vertex that forces it
+  bool bisected = false;              ///< by bisection (refine_soup.h) instead
 };
 
 /// Intrinsic Delaunay refinement of the mesh (Sharp, Soliman & Crane 2019, section 4.2; Chew 1993).
 /// Original vertices stay nodes, with the same indices.
 NodeSurface refine(const TriangleMesh& mesh, const HalfEdgeMesh& half_edges,
+                   const RefineOptions& options, RefineReport* report = nullptr);
+
+/// The refinement for any mesh as clean() leaves it: intrinsic if it is manifold, else bisection
+/// inside the input's faces (refine_soup.h) for the whole of it.
+/// \param cleaning what clean() reported of this mesh
+NodeSurface refine(const TriangleMesh& mesh, const CleanReport& cleaning,
                    const RefineOptions& options, RefineReport* report = nullptr);
 
 }  // namespace onmesh

@@ -311,6 +311,22 @@ TriangleMesh make_book(int n, double angle_degrees) {
   return grid.take();
 }
 
+TriangleMesh make_bow_tie(int n) {
+  require_segments("bow tie", {n});
+  const double side = 7.0 / 16;
+  GridBuilder grid;
+  for (int half = 0; half < 2; ++half) {
+    const double low = half - 1, uv = half * 0.5 + 1.0 / 32;
+    grid.add_chart(n, n, [&](int i, int j) {
+      const double x = double(i) / n, y = double(j) / n;
+      return GridBuilder::Point{{(half - 1) * n + i, (half - 1) * n + j, 0},
+                                {low + x, low + y, 0},
+                                {uv + side * x, uv + side * y}};
+    });
+  }
+  return grid.take();
+}
+
 TriangleMesh make_chest(int n, double gap) {
   require_segments("chest", {n});
   require(positive(gap), "chest: gap must be positive");

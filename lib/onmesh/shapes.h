@@ -74,6 +74,18 @@ TriangleMesh make_blob(int levels, std::uint64_t seed, double amplitude = 0.45);
 /// `angle_degrees` in (0, 180) from page to page. One rectangular chart per page.
 TriangleMesh make_book(int n, double angle_degrees = 40);
 
+/// Not manifold: two unit squares in the xy plane, [-1,0]^2 and [0,1]^2, that share the corner at
+/// the origin and nothing else. One chart each, true to scale; n segments per side. The shortest
+/// way from one to the other leads through the origin.
+TriangleMesh make_bow_tie(int n);
+
+/// One-sided: a strip folded along five creases into a closed band with a half twist. It is exactly
+/// developable: laid out, it is the strip |y| <= width / 2 in which (x, y) and (x + length, -y) are
+/// one point; its chart is one length of it, kMoebiusScale / length UVs per mesh unit, centred in
+/// the image. n segments along each of the five facets and across; width <= length / 8.
+TriangleMesh make_moebius(int n, double length = 8, double width = 1);
+inline constexpr double kMoebiusScale = 0.75;
+
 /// Two components: a closed box of 2 x 1 x 1.4 and a closed lid of height 0.4 that floats `gap` > 0
 /// above it. Six rectangular charts each, all of one scale.
 TriangleMesh make_chest(int n = 1, double gap = 0.05);

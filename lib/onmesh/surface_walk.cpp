@@ -37,32 +37,62 @@ SurfaceWalk::SurfaceWalk(const TriangleMesh& mesh, const TexelMap& map)
   std::vector<Index> end(offsets.begin(), offsets.end() - 1);
   for (Index f = 0; f < mesh.faces.size(); ++f)
     for (const Index v : mesh.faces[f]) around[end[v]++] = f;
+  std::vector<Index> in_chart(across_.size(), kNone);
   parallel_over(mesh.faces.size(), [&](std::size_t f) {
+    std::vector<Index> others;
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = mesh.faces[f][k], b = mesh.faces[f][next(k)];
+      if (a == b) continue;
+      others.clear();
       const Index v = offsets[a + 1] - offsets[a] <= offsets[b + 1] - offsets[b] ? a : b;
-      Index found = kNone;
-      int count = 0;
       for (Index i = offsets[v]; i < offsets[v + 1]; ++i) {
         const Index g = around[i];
         if (g == f) continue;
         for (std::size_t l = 0; l < 3; ++l) {
           const Index c = mesh.faces[g][l], d = mesh.faces[g][next(l)];
-          if (!((c == a && d == b) || (c == b && d == a))) continue;
-          ++count;
-          found = Index(3 * g + l);
+          if ((c == a && d == b) || (c == b && d == a)) others.push_back(Index(3 * g + l));
         }
       }
-      if (count == 1 && a != b) across_[3 * f + k] = found;
+      double straightest = -2, straightest_in_chart = -2;
+      for (const Index other : others) {
+        const Index g = other / 3;
+        const double cosine = others.size() == 1 ? 1 : straightness(Index(f), k, g, other % 3);
+        if (cosine > straightest) {
+          straightest = cosine;
+          across_[3 * f + k] = other;
+        }
+        if (cosine > straightest_in_chart && uvs_agree(Index(f), k, g, other % 3)) {
+          straightest_in_chart = cosine;
+          in_chart[3 * f + k] = other;
+        }
+      }
     }
   });
+  for (Index i = 0; i < across_.size(); ++i)
+    if (in_chart[i] != across_[i]) in_chart_.emplace_back(i, in_chart[i]);
 }
 
-bool SurfaceWalk::uvs_agree(Index face, int k) const {
-  const Index other = across(face, k);
-  if (other == kNone) return false;
-  const std::size_t a = std::size_t(k), c = other % 3;
-  const Index g = other / 3;
+/// The cosine of the angle by which the surface turns from a face into another over an edge.
+double SurfaceWalk::straightness(Index face, std::size_t k, Index other, std::size_t l) const {
+  const auto p = mesh_.corners(face), q = mesh_.corners(other);
+  const Vec3 along = (p[next(k)] - p[k]).normalized();
+  const auto off_edge = [&](const Vec3& apex) {
+    const Vec3 d = apex - p[k];
+    return Vec3(d - d.dot(along) * along);
+  };
+  const Vec3 in = off_edge(p[(k + 2) % 3]), out = off_edge(q[(l + 2) % 3]);
+  const double norms = in.norm() * out.norm();
+  // A face without area is the last choice.
+  return norms > 0 ? -in.dot(out) / norms : -1;
+}
+
+Index SurfaceWalk::across_in_chart(Index face, int k) const {
+  const auto i = Index(side(face, k));
+  const auto at = std::lower_bound(in_chart_.begin(), in_chart_.end(), std::pair(i, Index{0}));
+  return at != in_chart_.end() && at->first == i ? at->second : across_[i];
+}
+
+bool SurfaceWalk::uvs_agree(Index face, std::size_t a, Index g, std::size_t c) const {
   const auto &fu = mesh_.face_uvs[face], &gu = mesh_.face_uvs[g];
   if (fu[a] == kNone || fu[next(a)] == kNone) return false;
   const bool opposed = mesh_.faces[face][a] == mesh_.faces[g][next(c)];
@@ -98,10 +128,10 @@ std::array<Vec2, 3> SurfaceWalk::steering_corners(const LaidFace& laid) const {
 /// Unfold the face across edge k onto the other side of that edge.
 template <bool by_uv>
 std::optional<LaidFace> SurfaceWalk::cross(const LaidFace& laid, int k) const {
-  const Index other = across(laid.face, k);
+  const Index other = by_uv ? across_in_chart(laid.face, k) : across(laid.face, k);
   if (other == kNone) return std::nullopt;
   const Index g = other / 3;
-  if (by_uv && (!uvs_agree(laid.face, k) || !mesh_.has_uvs(g))) return std::nullopt;
+  if (by_uv && !mesh_.has_uvs(g)) return std::nullopt;
   const std::size_t a = std::size_t(k), l = other % 3;
   const bool opposed = mesh_.faces[laid.face][a] == mesh_.faces[g][next(l)];
   const auto p = mesh_.corners(g);
@@ -126,7 +156,8 @@ WalkEnd SurfaceWalk::walk_out(const LaidFace& start, int edge, const Vec2& from,
                               const Vec2& to) const {
   WalkEnd end{start, from, false};
   for (int step = 0; step < kMostSteps; ++step) {
-    const Index entered = across(end.laid.face, edge);
+    const Index entered =
+        by_uv ? across_in_chart(end.laid.face, edge) : across(end.laid.face, edge);
     const auto onward = cross<by_uv>(end.laid, edge);
     if (!onward) break;
     end.laid = *onward;

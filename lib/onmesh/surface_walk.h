@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "onmesh/texel_map.h"
@@ -39,8 +40,8 @@ class SurfaceWalk {
   /// The face on its own, corner 0 at the origin.
   LaidFace lay_out(Index face) const;
 
-  /// Go straight from a point in or on the face to `to`, both in its plane, over any edge that just
-  /// two faces share, up to the face that holds `to` or to where the surface ends.
+  /// Go straight from a point in or on the face to `to`, both in its plane, over any edge that has
+  /// another face, up to the face that holds `to` or to where the surface ends.
   WalkEnd over_surface(const LaidFace& start, const Vec2& from, const Vec2& to) const;
 
   /// The same with points in pixels, steering by the UVs and without leaving the chart.
@@ -51,11 +52,12 @@ class SurfaceWalk {
   /// Corners of a face in pixels.
   std::array<Vec2, 3> pixel_corners(Index face) const;
 
-  /// Face 3 f + k across edge k of face f, as 3 g + l; kNone at borders and where more than two
-  /// faces meet.
-  Index across(Index face, int k) const { return across_[std::size_t(3) * face + std::size_t(k)]; }
-  /// Whether the face across edge k has the same UVs there.
-  bool uvs_agree(Index face, int k) const;
+  /// Face 3 f + k across edge k of face f, as 3 g + l; kNone at borders. Where more than two faces
+  /// meet it is the one that goes on most straight (the one that would be least folded there; the
+  /// lowest of equals), so that coming back may lead elsewhere.
+  Index across(Index face, int k) const { return across_[side(face, k)]; }
+  /// The same among the faces with the same UVs there; kNone if there are none.
+  Index across_in_chart(Index face, int k) const;
 
  private:
   template <bool by_uv>
@@ -66,10 +68,14 @@ class SurfaceWalk {
   std::array<Vec2, 3> steering_corners(const LaidFace& laid) const;
   template <bool by_uv>
   std::optional<LaidFace> cross(const LaidFace& laid, int k) const;
+  static std::size_t side(Index face, int k) { return std::size_t(3) * face + std::size_t(k); }
+  bool uvs_agree(Index face, std::size_t k, Index other, std::size_t l) const;
+  double straightness(Index face, std::size_t k, Index other, std::size_t l) const;
 
   const TriangleMesh& mesh_;
   const TexelMap& map_;
   std::vector<Index> across_;
+  std::vector<std::pair<Index, Index>> in_chart_;  ///< sides where that is another face, ascending
 };
 
 }  // namespace onmesh

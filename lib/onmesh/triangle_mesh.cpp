@@ -4,13 +4,20 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <limits>
+#include <string_view>
+#include <unordered_map>
 
 #include "onmesh/edge_table.h"
-#include "onmesh/error.h"
+#include "onmesh/sheets.h"
 
 namespace onmesh {
 namespace {
+
+/// Faces and UV triangles with less than this of their longest edge's square have no area: rounding
+/// of their corners alone gives as much.
+constexpr double kNoArea = 1e-12;
 
 /// Numbers distinct points in the order in which they are first seen (open addressing).
 template <int N>
@@ -116,16 +123,81 @@ std::vector<bool> find_fins(const TriangleMesh& mesh, const std::vector<Index>& 
       ++(sides.size() == 2 ? own : shared)[first];
     }
   }
-  const double longest = 0.01 * mesh.diagonal();
+  const double limit = 0.01 * mesh.diagonal();
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     const Index first = earlier[f];
     if (first == kNone || own[first] != 2 || shared[first] != 1) continue;
     const auto c = mesh.corners(first);
     const double length =
         std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
-    if (length < longest) fin[f] = fin[first] = true;
+    if (length < limit) fin[f] = fin[first] = true;
   }
   return fin;
+}
+
+/// What a face's texels are: UVs by vertex, and texture.
+struct Texels {
+  std::array<std::array<Index, 2>, 3> uvs;
+  std::string_view texture;
+  bool operator==(const Texels&) const = default;
+};
+
+Texels texels_of(const TriangleMesh& mesh, Index face) {
+  Texels texels;
+  for (std::size_t k = 0; k < 3; ++k) {
+    texels.uvs[k] = {mesh.faces[face][k], mesh.face_uvs[face][k]};
+  }
+  std::sort(texels.uvs.begin(), texels.uvs.end());
+  const Index material = mesh.face_materials[face];
+  if (material != kNone) texels.texture = mesh.materials[material].texture;
+  return texels;
+}
+
+bool has_texels(const TriangleMesh& mesh, Index face) {
+  return mesh.has_uvs(face) && mesh.uv_area(face) != 0;
+}
+
+/// Which of the faces on the same three vertices go, as clean() describes.
+std::vector<bool> find_repeats(const TriangleMesh& mesh, const std::vector<Index>& earlier) {
+  std::vector<bool> repeats(mesh.faces.size(), false);
+  // The faces kept so far on the vertices of a face that has copies, by its number.
+  std::unordered_map<Index, std::vector<Index>> kept;
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    if (earlier[f] == kNone) continue;
+    std::vector<Index>& layers = kept[earlier[f]];
+    if (layers.empty()) layers.push_back(earlier[f]);
+    if (!has_texels(mesh, f)) {
+      repeats[f] = true;
+    } else if (!has_texels(mesh, layers[0])) {
+      repeats[layers[0]] = true;
+      layers[0] = f;
+    } else {
+      const Texels own = texels_of(mesh, f);
+      repeats[f] = std::any_of(layers.begin(), layers.end(),
+                               [&](Index other) { return texels_of(mesh, other) == own; });
+      if (!repeats[f]) layers.push_back(f);
+    }
+  }
+  return repeats;
+}
+
+/// Faces of components (over vertices) in which no face has any area.
+std::vector<bool> find_flat_components(const TriangleMesh& mesh) {
+  std::vector<bool> flat(mesh.faces.size(), false);
+  for (Index f = 0; f < mesh.faces.size(); ++f) flat[f] = mesh.is_degenerate(f);
+  if (std::find(flat.begin(), flat.end(), true) == flat.end()) return flat;
+  DisjointSets vertices(mesh.positions.size());
+  for (const auto& face : mesh.faces) {
+    vertices.join(face[0], face[1]);
+    vertices.join(face[0], face[2]);
+  }
+  std::vector<bool> has_area(mesh.positions.size(), false);
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    if (!flat[f]) has_area[vertices.find(mesh.faces[f][0])] = true;
+  }
+  for (Index f = 0; f < mesh.faces.size(); ++f)
+    flat[f] = !has_area[vertices.find(mesh.faces[f][0])];
+  return flat;
 }
 
 }  // namespace
@@ -143,6 +215,22 @@ Vec2 TriangleMesh::uv(const SurfacePoint& p) const {
 double TriangleMesh::face_area(Index face) const {
   const auto c = corners(face);
   return (c[1] - c[0]).cross(c[2] - c[0]).norm() / 2;
+}
+
+bool TriangleMesh::is_degenerate(Index face) const {
+  if (has_repeated_vertex(faces[face])) return true;
+  const auto c = corners(face);
+  const double longest = std::max(
+      {(c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(), (c[0] - c[2]).squaredNorm()});
+  return !(2 * face_area(face) > kNoArea * longest);
+}
+
+double TriangleMesh::uv_area(Index face) const {
+  const auto c = corner_uvs(face);
+  const Vec2 a = c[1] - c[0], b = c[2] - c[0];
+  const double area = (a.x() * b.y() - a.y() * b.x()) / 2;
+  const double longest = std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()});
+  return 2 * std::abs(area) > kNoArea * longest ? area : 0;
 }
 
 double TriangleMesh::diagonal() const {
@@ -175,31 +263,57 @@ TriangleMesh weld(const TriangleMesh& mesh) {
   return result;
 }
 
+TriangleMesh loosen(const TriangleMesh& mesh) {
+  TriangleMesh result;
+  result.materials = mesh.materials;
+  result.face_materials = mesh.face_materials;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    std::array<Index, 3> corners{}, uvs{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = static_cast<Index>(result.positions.size());
+      result.positions.push_back(mesh.positions[mesh.faces[f][k]]);
+      uvs[k] = kNone;
+      if (mesh.face_uvs[f][k] == kNone) continue;
+      uvs[k] = static_cast<Index>(result.uvs.size());
+      result.uvs.push_back(mesh.uvs[mesh.face_uvs[f][k]]);
+    }
+    result.faces.push_back(corners);
+    result.face_uvs.push_back(uvs);
+  }
+  return result;
+}
+
 TriangleMesh clean(const TriangleMesh& mesh, CleanReport* report) {
   CleanReport local;
   CleanReport& r = report ? *report : local;
   r = {};
   const std::vector<Index> earlier = earlier_copies(mesh);
   const std::vector<bool> fin = find_fins(mesh, earlier);
+  const std::vector<bool> repeats = find_repeats(mesh, earlier);
+  const std::vector<bool> flat = find_flat_components(mesh);
+  bool layers = false;
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     if (has_repeated_vertex(mesh.faces[f])) {
       ++r.collapsed;
     } else if (fin[f]) {
       ++r.fins;
-    } else if (earlier[f] != kNone) {
+    } else if (flat[f]) {
+      ++r.flat;
+    } else if (repeats[f]) {
       ++r.duplicates;
     } else {
+      layers = layers || (earlier[f] != kNone && !repeats[earlier[f]]);
       r.kept.push_back(f);
     }
   }
   TriangleMesh result = pick_faces(mesh, r.kept);
-  const Winding winding = consistent_winding(result, EdgeTable(result));
-  if (winding.conflict != kNone) {
-    throw InputError(
-        "the mesh has a component that cannot be wound consistently (like a Moebius strip), seen "
-        "at face " +
-        std::to_string(r.kept[winding.conflict]) + "; cut it open along a line of edges");
-  }
+  if (layers) r.separated = separate_sheets(result);
+  const EdgeTable edges(result);
+  const Winding winding = consistent_winding(result, edges);
+  r.orientable = winding.conflict == kNone;
+  for (std::size_t e = 0; e < edges.size(); ++e) r.branching_edges += edges.sides(e).size() > 2;
+  DisjointSets fans = join_fans(result, edges);
+  for (const Index count : count_fans(result, fans)) r.bow_ties += count > 1;
   for (Index f = 0; f < result.faces.size(); ++f) {
     if (!winding.flip[f]) continue;
     std::swap(result.faces[f][1], result.faces[f][2]);
@@ -207,6 +321,24 @@ TriangleMesh clean(const TriangleMesh& mesh, CleanReport* report) {
     ++r.flipped;
   }
   return result;
+}
+
+std::string CleanReport::defects() const {
+  std::string text;
+  const auto add = [&text](const std::string& defect) {
+    text += (text.empty() ? "" : ", ") + defect;
+  };
+  const auto count = [](Index n, const char* one, const char* many) {
+    return std::to_string(n) + " " + (n == 1 ? one : many);
+  };
+  if (branching_edges > 0) {
+    add(count(branching_edges, "edge has", "edges have") + " more than two faces");
+  }
+  if (bow_ties > 0) {
+    add(count(bow_ties, "vertex joins", "vertices join") + " parts that share no edge there");
+  }
+  if (!orientable) add("part of it has only one side");
+  return text;
 }
 
 TriangleMesh extract_faces(const TriangleMesh& mesh, const std::vector<bool>& keep) {

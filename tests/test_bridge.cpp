@@ -1,0 +1,168 @@
+// Bridges over the gaps between components.
+#include "onmesh/bridge.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "brute_force.h"
+#include "onmesh/distance.h"
+#include "onmesh/error.h"
+#include "onmesh/refine.h"
+#include "onmesh/shapes.h"
+
+namespace onmesh {
+namespace {
+
+/// Two coplanar squares, `gap` apart in x, with n segments a side; UVs are positions over 2 + gap.
+TriangleMesh two_squares(double gap, int n = 1) {
+  TriangleMesh mesh = make_plane(n, n);
+  const auto vertices = Index(mesh.positions.size());
+  const std::size_t faces = mesh.faces.size();
+  for (Index v = 0; v < vertices; ++v)
+    mesh.positions.push_back(mesh.positions[v] + Vec3(1 + gap, 0, 0));
+  mesh.uvs.clear();
+  for (const Vec3& p : mesh.positions) mesh.uvs.emplace_back(p.x() / (2 + gap), p.y());
+  for (std::size_t f = 0; f < faces; ++f) {
+    auto face = mesh.faces[f];
+    for (Index& v : face) v += vertices;
+    mesh.faces.push_back(face);
+    mesh.face_materials.push_back(kNone);
+  }
+  mesh.face_uvs = mesh.faces;
+  return mesh;
+}
+
+NodeSurface refined(const TriangleMesh& mesh, double spacing) {
+  CleanReport cleaning;
+  clean(mesh, &cleaning);
+  RefineOptions options;
+  options.spacing = spacing;
+  return refine(mesh, cleaning, options);
+}
+
+/// Distances by `unfold` from one node to all; infinite where unreachable.
+std::vector<double> distances_from_node(const NodeMesh& nodes, Index source) {
+  const Index face = nodes.node_faces[nodes.node_offsets[source]];
+  const double reach = 100;
+  const Patch patch = grow_patch(nodes, {face}, reach);
+  DistanceTable table;
+  make_unfold()->fill(patch, reach, table);
+  std::vector<double> result(nodes.nodes.size(), std::numeric_limits<double>::infinity());
+  for (Index i = 0; i < patch.core_nodes; ++i) {
+    if (patch.nodes[i] != source) continue;
+    for (Index j = 0; j < table.columns; ++j)
+      if (table.row(i)[j] != kUnreachable)
+        result[patch.nodes[j]] = std::sqrt(double(table.row(i)[j]));
+  }
+  return result;
+}
+
+TEST_CASE("bridges carry straight distances over a gap", "[bridge]") {
+  const double spacing = 0.1;
+  for (const double gap : {0.0, 1e-7, 0.01, 0.05}) {
+    const TriangleMesh mesh = two_squares(gap, gap == 0.01 ? 7 : 1);
+    NodeSurface surface = refined(mesh, spacing);
+    const Index bridges = add_bridges(mesh, 0.06, surface);
+    INFO("gap " << gap);
+    CHECK(bridges > 10);
+    CHECK(surface.nodes.bridge_faces == 3 * bridges);
+    for (const auto& l : surface.nodes.lengths)
+      for (const double length : l) REQUIRE(length > 0);
+    double worst = 0;
+    for (Index source = 0; source < surface.nodes.nodes.size(); source += 17) {
+      const std::vector<double> d = distances_from_node(surface.nodes, source);
+      const Vec3 x = mesh.position(surface.nodes.nodes[source]);
+      for (Index n = 0; n < d.size(); ++n) {
+        const double straight = (mesh.position(surface.nodes.nodes[n]) - x).norm();
+        REQUIRE(std::isfinite(d[n]));
+        CHECK(d[n] > straight - 1e-5);
+        worst = std::max(worst, d[n] - straight);
+      }
+    }
+    CHECK(worst < 0.5 * gap + 1e-4);
+    WARN("gap " << gap << " worst " << worst << " bridges " << bridges);
+  }
+}
+
+TEST_CASE("only gaps below the width are bridged, in both directions", "[bridge]") {
+  const TriangleMesh mesh = two_squares(0.05);
+  NodeSurface surface = refined(mesh, 0.1);
+  const std::size_t faces = surface.nodes.faces.size();
+  CHECK(add_bridges(mesh, 0.04, surface) == 0);
+  CHECK(surface.nodes.faces.size() == faces);
+  CHECK(add_bridges(mesh, 0.06, surface) > 0);
+  // Apexes on both sides.
+  bool left = false, right = false;
+  for (std::size_t f = faces; f < surface.nodes.faces.size(); ++f) {
+    const double x = mesh.position(surface.nodes.nodes[surface.nodes.faces[f][0]]).x();
+    (x <= 1 ? left : right) = true;
+    CHECK(std::abs(x - 1.025) < 0.026);
+  }
+  CHECK(left);
+  CHECK(right);
+  // One component alone, however folded, is never bridged to itself.
+  const TriangleMesh sheet = make_u_sheet(1, 1, 0.01, 2, 4);
+  NodeSurface folded = refined(sheet, 0.1);
+  CHECK(add_bridges(sheet, 0.5, folded) == 0);
+}
+
+TEST_CASE("bridges do not change distances within a part", "[bridge]") {
+  const TriangleMesh chest = make_chest(1, 0.05);
+  NodeSurface surface = refined(chest, 0.2);
+  const std::vector<double> before = distances_from_node(surface.nodes, 3);
+  add_bridges(chest, 0.06, surface);
+  const std::vector<double> after = distances_from_node(surface.nodes, 3);
+  double worst = 0;
+  int reached = 0;
+  for (Index n = 0; n < before.size(); ++n) {
+    // A way over the other part is no shorter: the gap has to be crossed twice.
+    if (std::isfinite(before[n])) worst = std::max(worst, std::abs(before[n] - after[n]));
+    reached += !std::isfinite(before[n]) && std::isfinite(after[n]);
+  }
+  CHECK(worst < 0.02);
+  CHECK(reached > 50);
+}
+
+TEST_CASE("two squares with a bridged gap filter like one plane with that gap", "[bridge]") {
+  const Image texture = make_texture(256, 128, Pattern::checker, 0.3, 7, 3);
+  const auto kind = GENERATE(FilterKind::bilateral, FilterKind::gaussian);
+  for (const double gap : {0.002, 0.02}) {
+    const TriangleMesh mesh = two_squares(gap);
+    FilterOptions options;
+    options.sigma_spatial = {0.08, Length::Unit::mesh};
+    options.sigma_range = 0.2;
+    options.bridge = Length{0.04, Length::Unit::mesh};
+    options.kind = kind;
+    const double radius = options.kind == FilterKind::bilateral ? 0.2 : 0.24;
+    const Image result = filter(mesh, texture, options);
+    const Distances straight = [&](const SurfacePoint& source,
+                                   const std::vector<SurfacePoint>& targets) {
+      std::vector<double> d;
+      for (const SurfacePoint& t : targets)
+        d.push_back((mesh.position(t) - mesh.position(source)).norm());
+      return d;
+    };
+    const BruteForce out =
+        against_brute_force(mesh, texture, result, options.kind, 0.08, radius, 0.2, 600, straight);
+    INFO("gap " << gap);
+    CHECK(out.psnr > 60);
+    WARN("gap " << gap << " psnr " << out.psnr << " worst " << out.worst);
+  }
+}
+
+TEST_CASE("senseless bridges are refused", "[bridge]") {
+  const TriangleMesh chest = make_chest();
+  const Image texture = make_image(64, 64, 1);
+  FilterOptions options;
+  options.bridge = Length{-1, Length::Unit::mesh};
+  CHECK_THROWS_AS(filter(chest, texture, options), UsageError);
+  options.bridge = Length{0.1, Length::Unit::mesh};
+  for (const DistanceMethod method : {DistanceMethod::heat, DistanceMethod::exact}) {
+    options.distance = method;
+    CHECK_THROWS_AS(filter(chest, texture, options), UsageError);
+  }
+}
+
+}  // namespace
+}  // namespace onmesh
