@@ -16,8 +16,6 @@ namespace onmesh::compare {
 struct Subject {
   std::string name;
   int size = 0;  ///< texels per side of its texture
-  /// The mesh. Where it cannot be refined (non-manifold), its own vertices are the nodes, so it
-  /// must be as fine as that; `node_texels` is the node spacing in texels.
   std::function<TriangleMesh()> make;
   /// True distances on the mesh up to a radius (mesh units), safe to call from several threads.
   std::function<Distances(const TriangleMesh& mesh, double radius)> truth;
