@@ -239,6 +239,7 @@ int run_distance(const std::vector<std::string>& arguments) {
   if (request.needs_nodes) {
     RefineOptions options;
     options.spacing = spacing;
+    options.flat_faces = request.bridge.has_value();
     check_spacing(mesh, spacing);
     surface = naming(path, [&] { return refine(mesh, input.cleaning, options, &refined); });
     if (request.bridge)

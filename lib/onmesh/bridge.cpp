@@ -86,10 +86,8 @@ Index add_bridges(const TriangleMesh& mesh, double width, NodeSurface& surface) 
     }
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3;
-      // The side keeps its length, so that nobody takes a short cut through the other part.
-      const double shortest = 1e-6 * std::max({up[k], up[l], sides[k]});
       nodes.faces.push_back({a, base[k], base[l]});
-      nodes.lengths.push_back({std::max(up[k], shortest), sides[k], std::max(up[l], shortest)});
+      nodes.lengths.push_back({up[k], sides[k], up[l]});
       if (!nodes.neighbours.empty()) nodes.neighbours.push_back({kNone, kNone, kNone});
     }
     ++bridges;

@@ -251,6 +251,7 @@ Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& o
   RefineOptions refine_options;
   refine_options.spacing = plan.node_spacing;
   refine_options.finest = plan.finest_spacing;
+  refine_options.flat_faces = plan.bridge > 0;
   RefineReport refined;
   NodeSurface surface = refine(setup.mesh, setup.cleaning, refine_options, &refined);
   report.refinement = refined.bisected ? "bisection" : "intrinsic";

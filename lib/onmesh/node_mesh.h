@@ -23,8 +23,9 @@ struct NodeMesh {
   /// common. Bridges do not count.
   std::vector<std::array<Index, 3>> neighbours;
 
-  /// So many of the last faces are bridges between components (bridge.h): paths cross them, but
-  /// they are no part of the surface, carry no texels and are in no overlay.
+  /// So many of the last faces are bridges between components (bridge.h): paths cross them from the
+  /// side opposite corner 0 to corner 0, or run along the edges there. They are no part of the
+  /// surface, carry no texels and are in no overlay.
   Index bridge_faces = 0;
 
   /// Fill node_offsets and node_faces from faces.

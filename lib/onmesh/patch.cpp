@@ -208,11 +208,15 @@ Growth march_from(const NodeMesh& mesh, const Numbering& core, double reach) {
       if (d - std::max({l[0], l[1], l[2]}) > reach) continue;
       const auto& corner = mesh.faces[f];
       const std::array<Index, 3> n{number(corner[0]), number(corner[1]), number(corner[2])};
+      const bool bridge = f >= mesh.faces.size() - mesh.bridge_faces;
       for (int k = 0; k < 3; ++k) {
         const int a = (k + 1) % 3, b = (k + 2) % 3;
         if (n[a] != i && n[b] != i) continue;
         const double there =
-            distance_across(growth.distance[n[a]], growth.distance[n[b]], l[a], l[k], l[b]);
+            bridge && k != 0
+                ? growth.distance[n[0]] + (k == 1 ? l[0] : l[2])
+                : std::max(0.0, distance_across(growth.distance[n[a]], growth.distance[n[b]], l[a],
+                                                l[k], l[b]));
         // A relative threshold, so that rounding cannot keep the march busy.
         if (there >= growth.distance[n[k]] * (1 - 1e-9)) continue;
         growth.distance[n[k]] = there;
@@ -308,7 +312,7 @@ Patch grow_patch(const NodeMesh& mesh, const std::vector<Index>& core_faces, dou
       halo.push_back(mesh.node_faces[at]);
   std::sort(halo.begin(), halo.end());
   halo.erase(std::unique(halo.begin(), halo.end()), halo.end());
-  for (const Index f : halo)
+  for (const Index f : halo)  // ascending, so that bridges come last
     if (faces.find(f) == kNone && within(growth, mesh, f, reach)) faces.find_or_add(f);
 
   Patch patch;
@@ -323,6 +327,7 @@ Patch grow_patch(const NodeMesh& mesh, const std::vector<Index>& core_faces, dou
         {nodes.find_or_add(corner[0]), nodes.find_or_add(corner[1]), nodes.find_or_add(corner[2])});
     patch.lengths.push_back(l);
     patch.longest_edge = std::max({patch.longest_edge, l[0], l[1], l[2]});
+    patch.bridge_faces += patch.faces[i] >= mesh.faces.size() - mesh.bridge_faces;
     if (i + 1 == patch.core_faces) patch.core_nodes = Index(nodes.keys().size());
   }
   patch.nodes = nodes.keys();

@@ -17,6 +17,7 @@ struct Patch {
   std::vector<std::array<double, 3>> lengths;    ///< per local face, as in NodeMesh
   std::vector<std::array<Index, 3>> neighbours;  ///< as in NodeMesh with local faces; kNone outside
   double longest_edge = 0;
+  Index bridge_faces = 0;  ///< so many of the last faces are bridges, as in NodeMesh
 };
 
 /// Group the faces that carry targets (weights > 0) into compact groups of about `target_weight`

@@ -302,8 +302,9 @@ NodeSurface refine(const TriangleMesh& mesh, const HalfEdgeMesh& half_edges,
 
 NodeSurface refine(const TriangleMesh& mesh, const CleanReport& cleaning,
                    const RefineOptions& options, RefineReport* report) {
-  return cleaning.manifold() ? refine(mesh, make_half_edge_mesh(mesh), options, report)
-                             : refine_soup(mesh, options, report);
+  return cleaning.manifold() && !options.flat_faces
+             ? refine(mesh, make_half_edge_mesh(mesh), options, report)
+             : refine_soup(mesh, options, report);
 }
 
 }  // namespace onmesh

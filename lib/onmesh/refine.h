@@ -12,6 +12,9 @@ struct RefineOptions {
       0;  ///< spacing at cones, creases and reflex corners, (0, spacing]; 0 = spacing / 4
   double growth = 0.35;  ///< how fast the spacing grows away from them, per unit of distance
   double min_angle_degrees = 25;  ///< Delaunay refinement's angle bound, [0, 30]
+  /// Refine even a manifold mesh by bisection, so that node faces are flat in space: bridges, whose
+  /// lengths are straight, need that.
+  bool flat_faces = false;
   Index max_nodes = 200'000'000;  ///< stop with an InputError beyond
 };
 
@@ -27,8 +30,9 @@ struct RefineReport {
 NodeSurface refine(const TriangleMesh& mesh, const HalfEdgeMesh& half_edges,
                    const RefineOptions& options, RefineReport* report = nullptr);
 
-/// The refinement for any mesh as clean() leaves it: intrinsic if it is manifold, else bisection
-/// inside the input's faces (refine_soup.h) for the whole of it.
+/// The refinement for any mesh as clean() leaves it: intrinsic if it is manifold and
+/// options.flat_faces is not set, else bisection inside the input's faces (refine_soup.h) for the
+/// whole of it.
 /// \param cleaning what clean() reported of this mesh
 NodeSurface refine(const TriangleMesh& mesh, const CleanReport& cleaning,
                    const RefineOptions& options, RefineReport* report = nullptr);

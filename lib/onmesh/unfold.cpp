@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "onmesh/distance.h"
@@ -63,7 +64,8 @@ void march(const Complex<T>& complex, const Index* sources, int count, Scratch<T
   const auto zero = hn::Zero(d), two = hn::Set(d, T(2)), far = hn::Set(d, T(kFar));
   const auto reached = hn::Set(d, T(kFar) / 2);  // whatever follows from kFar is more
   // Smaller improvements are kept, but not passed on: rounding must not keep the march busy.
-  const auto significant = hn::Set(d, sizeof(T) == 4 ? T(1 - 1e-6) : T(1 - 1e-12));
+  T noise = sizeof(T) == 4 ? T(1e-6) : T(1e-12);
+  auto significant = hn::Set(d, 1 - noise);
   const auto tolerance = hn::Set(d, sizeof(T) == 4 ? T(-1e-5) : T(-1e-11));
 
   const std::size_t capacity = s.queue.size();
@@ -85,8 +87,17 @@ void march(const Complex<T>& complex, const Index* sources, int count, Scratch<T
     push(sources[lane]);
   }
 
+  // A march visits a node some ten times. Where edges are so short that rounding keeps it going, it
+  // has to come to an end all the same: more and more counts as noise.
+  std::size_t visits = 0, patience = 64 * capacity;
+
   alignas(64) std::array<T, kLanes> root;
   while (queued > 0) {
+    if (++visits > patience) {
+      patience += capacity;
+      noise = std::min(T(1), 2 * noise);
+      significant = hn::Set(d, 1 - noise);
+    }
     const Index v = s.queue[head];
     if (++head == capacity) head = 0;
     --queued;
@@ -120,11 +131,13 @@ void march(const Complex<T>& complex, const Index* sources, int count, Scratch<T
         const auto unfolded =
             hn::MulAdd(two, hn::NegMulAdd(sx, x, hn::Mul(sy, y)), hn::Add(dv, side2));
         const auto along = hn::Add(hn::LoadU(d, root.data() + p), side);
-        const auto there = hn::Min(hn::Mul(along, along), hn::IfThenElse(straight, unfolded, far));
+        // Not below 0: the way back to the source would be an improvement for ever.
+        const auto there =
+            hn::Max(hn::Min(hn::Mul(along, along), hn::IfThenElse(straight, unfolded, far)), zero);
         const auto better = hn::Lt(there, hn::Min(old, reached));
         if (hn::AllFalse(d, better)) continue;
         changed = true;
-        hn::StoreU(hn::IfThenElse(better, hn::Max(there, zero), old), d, at_target + p);
+        hn::StoreU(hn::IfThenElse(better, there, old), d, at_target + p);
         passes_on |= !hn::AllFalse(
             d, hn::And(hn::Lt(there, hn::Mul(old, significant)), hn::Le(there, limit)));
       }
@@ -192,6 +205,7 @@ Complex<T> make_complex(const Patch& patch, const Incidence& around, double reac
   complex.limit2.reserve(nodes);
   complex.steps.reserve(6 * patch.corners.size());
   complex.offsets.push_back(0);
+  const Index surface_faces = Index(patch.corners.size()) - patch.bridge_faces;
   for (Index v = 0; v < nodes; ++v) {
     double longest = 0;
     for (Index i = around.offsets[v]; i < around.offsets[v + 1]; ++i) {
@@ -207,9 +221,19 @@ Complex<T> make_complex(const Patch& patch, const Incidence& around, double reac
           // lengths[k] is the edge opposite corner (k + 2) % 3.
           const double side = l[(other + 1) % 3], edge = l[(target + 1) % 3],
                        third = l[(from + 1) % 3];
+          if (f >= surface_faces && target != 0) {
+            // Back over a bridge paths run along its edges only: no ray passes the test with NaN.
+            if (from == 0)
+              complex.steps.push_back({corner[target], corner[other], 1, T(0.5), T(0.5),
+                                       std::numeric_limits<T>::quiet_NaN(), 0, T(side),
+                                       T(side * side)});
+            continue;
+          }
           if (!(edge > 0)) continue;
           const double x = (edge * edge + (side - third) * (side + third)) / (2 * edge);
-          const double y = std::sqrt(std::max(0.0, (side - x) * (side + x)));
+          // Never 0: where three nodes lie on a line, the test whether a ray crosses the edge could
+          // not tell one side from the other, and a source on that line would count as before it.
+          const double y = std::sqrt(std::max(1e-24 * edge * edge, (side - x) * (side + x)));
           complex.steps.push_back({corner[target], corner[other], T(edge), T(edge / 2),
                                    T(0.5 / edge), T(x), T(y), T(side), T(side * side)});
         }
@@ -296,7 +320,8 @@ class Unfold final : public DistanceBackend {
     // Float is enough for well-shaped faces, and nodes more than an edge beyond reach tell those
     // within nothing. Slivers multiply rounding by their aspect at every step, and see farther.
     double worst = 1;
-    for (const auto& l : patch.lengths) {
+    for (std::size_t f = 0; f + patch.bridge_faces < patch.lengths.size(); ++f) {
+      const auto& l = patch.lengths[f];
       const double longest = std::max({l[0], l[1], l[2]});
       worst = std::max(worst, longest * longest / (2 * triangle_area(l[0], l[1], l[2])));
     }
