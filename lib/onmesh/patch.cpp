@@ -151,6 +151,8 @@ class Numbering {
 // from a point source, and from a straight front (which is what the core's edges send out); only
 // rays that cross the edge count.
 double distance_across(double da, double db, double l, double a, double b) {
+  // No path to the third corner is shorter than those to the edge, whatever rounding says.
+  const double least = std::min(da, db);
   double best = std::min(da + a, db + b);
   if (!(l > 0) || da == kInfinity || db == kInfinity) return best;
   const double x = (l * l + a * a - b * b) / (2 * l);
@@ -162,13 +164,14 @@ double distance_across(double da, double db, double l, double a, double b) {
     const double sy = std::sqrt(sy2);
     const double crossing = sx * y + x * sy;
     if (crossing >= 0 && crossing <= l * (y + sy))
-      best = std::min(best, std::hypot(x - sx, y + sy));
+      best = std::min(best, std::max(std::hypot(x - sx, y + sy), least));
   }
   const double nx = (db - da) / l;
   if (std::abs(nx) < 1) {
     const double ny = std::sqrt(1 - nx * nx);
     const double crossing = x * ny - nx * y;
-    if (crossing >= 0 && crossing <= l * ny) best = std::min(best, da + nx * x + ny * y);
+    if (crossing >= 0 && crossing <= l * ny)
+      best = std::min(best, std::max(da + nx * x + ny * y, least));
   }
   return best;
 }
@@ -205,7 +208,8 @@ Growth march_from(const NodeMesh& mesh, const Numbering& core, double reach) {
       const Index f = mesh.node_faces[at];
       const auto& l = mesh.lengths[f];
       // Beyond this the face can neither be within reach nor help one that is.
-      if (d - std::max({l[0], l[1], l[2]}) > reach) continue;
+      const double longest = std::max({l[0], l[1], l[2]});
+      if (d - longest > reach) continue;
       const auto& corner = mesh.faces[f];
       const std::array<Index, 3> n{number(corner[0]), number(corner[1]), number(corner[2])};
       const bool bridge = f >= mesh.faces.size() - mesh.bridge_faces;
@@ -215,10 +219,9 @@ Growth march_from(const NodeMesh& mesh, const Numbering& core, double reach) {
         const double there =
             bridge && k != 0
                 ? growth.distance[n[0]] + (k == 1 ? l[0] : l[2])
-                : std::max(0.0, distance_across(growth.distance[n[a]], growth.distance[n[b]], l[a],
-                                                l[k], l[b]));
-        // A relative threshold, so that rounding cannot keep the march busy.
-        if (there >= growth.distance[n[k]] * (1 - 1e-9)) continue;
+                : distance_across(growth.distance[n[a]], growth.distance[n[b]], l[a], l[k], l[b]);
+        // A threshold, so that rounding cannot keep the march busy.
+        if (there >= growth.distance[n[k]] * (1 - 1e-9) - 1e-12 * longest) continue;
         growth.distance[n[k]] = there;
         queue.push({there, n[k]});
       }
