@@ -72,11 +72,11 @@ TEST_CASE("bridges carry straight distances over a gap", "[bridge]") {
       for (Index n = 0; n < d.size(); ++n) {
         const double straight = (mesh.position(surface.nodes.nodes[n]) - x).norm();
         REQUIRE(std::isfinite(d[n]));
-        worst = std::max(worst, std::abs(d[n] - straight));
+        CHECK(d[n] > straight - gap - 2e-6);  // the march's tolerance, next to nothing
+        worst = std::max(worst, d[n] - straight);
       }
     }
-    CHECK(worst < 0.5 * gap + 1e-4);
-    WARN("gap " << gap << " worst " << worst << " bridges " << bridges);
+    CHECK(worst < gap + 2e-6);
   }
 }
 
@@ -102,21 +102,34 @@ TEST_CASE("only gaps below the width are bridged, in both directions", "[bridge]
   CHECK(add_bridges(sheet, 0.5, folded) == 0);
 }
 
-TEST_CASE("bridges do not change distances within a part", "[bridge]") {
-  const TriangleMesh chest = make_chest(1, 0.05);
-  NodeSurface surface = refined(chest, 0.2);
-  const std::vector<double> before = distances_from_node(surface.nodes, 3);
-  add_bridges(chest, 0.06, surface);
-  const std::vector<double> after = distances_from_node(surface.nodes, 3);
-  double worst = 0;
-  int reached = 0;
-  for (Index n = 0; n < before.size(); ++n) {
-    // A way over the other part is no shorter: the gap has to be crossed twice.
-    if (std::isfinite(before[n])) worst = std::max(worst, std::abs(before[n] - after[n]));
-    reached += !std::isfinite(before[n]) && std::isfinite(after[n]);
+TEST_CASE("bridges leave distances within a part, and are no short cuts through space",
+          "[bridge]") {
+  for (const double gap : {0.05, 1e-3, 1e-6}) {
+    const TriangleMesh chest = make_chest(1, gap);
+    const NodeSurface apart = refined(chest, 0.2);
+    NodeSurface surface = apart;
+    CHECK(add_bridges(chest, 0.06, surface) > 100);
+    double change = 0, below = 0, above = 0;
+    for (Index source = 0; source < apart.nodes.nodes.size(); source += 97) {
+      const std::vector<double> before = distances_from_node(apart.nodes, source);
+      const std::vector<double> after = distances_from_node(surface.nodes, source);
+      const Vec3 x = chest.position(apart.nodes.nodes[source]);
+      for (Index n = 0; n < before.size(); ++n) {
+        const Vec3 y = chest.position(apart.nodes.nodes[n]);
+        REQUIRE(std::isfinite(after[n]));
+        below = std::max(below, (x - y).norm() - after[n]);
+        // Around a corner of the other part there may be a shorter way.
+        if (!std::isfinite(before[n])) continue;
+        change = std::max(change, after[n] - before[n]);
+        if ((x - y).norm() > (1 - 1e-6) * before[n])
+          above = std::max(above, std::abs(after[n] - before[n]));
+      }
+    }
+    INFO(gap);
+    CHECK(below < 3e-6);
+    CHECK(change < 3e-6);
+    CHECK(above < 3e-6);
   }
-  CHECK(worst < 0.02);
-  CHECK(reached > 50);
 }
 
 TEST_CASE("two squares with a bridged gap filter like one plane with that gap", "[bridge]") {
@@ -141,8 +154,7 @@ TEST_CASE("two squares with a bridged gap filter like one plane with that gap", 
     const BruteForce out =
         against_brute_force(mesh, texture, result, options.kind, 0.08, radius, 0.2, 600, straight);
     INFO("gap " << gap);
-    CHECK(out.psnr > 60);
-    WARN("gap " << gap << " psnr " << out.psnr << " worst " << out.worst);
+    CHECK(out.psnr > (gap < 0.01 ? 75 : 60));
   }
 }
 

@@ -180,7 +180,7 @@ TEST_CASE("nodes are dense at cones and bow ties, not along a straight spine", "
                     on_book = refine_to(book, 0.1), page = refine_to(make_plane(4, 4, 1, 1.4), 0.1);
   CHECK(mean_edge_near(cone, on_cone, Vec3::Zero(), 0.05) < 0.05);
   CHECK(mean_edge_near(tie, on_tie, Vec3::Zero(), 0.05) < 0.05);
-  CHECK(mean_edge_near(tie, on_tie, Vec3(1, 1, 0), 0.05) > 0.06);
+  CHECK(mean_edge_near(tie, on_tie, Vec3(1, 1, 0), 0.15) > 0.06);
   // Three pages share the nodes of their spine.
   CHECK(on_book.nodes.faces.size() == 3 * page.nodes.faces.size());
 }

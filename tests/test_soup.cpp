@@ -37,7 +37,7 @@ double psnr_against(const TriangleMesh& mesh, const Image& texture, FilterKind k
   options.bridge = bridge;
   const Image result = filter(mesh, texture, options, report);
   const double radius = sigma * (kind == FilterKind::bilateral ? 2.5 : 3.0);
-  return against_brute_force(mesh, texture, result, kind, sigma, radius, options.sigma_range, 200,
+  return against_brute_force(mesh, texture, result, kind, sigma, radius, options.sigma_range, 500,
                              distances)
       .psnr;
 }
@@ -70,7 +70,7 @@ TEST_CASE("pages of a book filter as the flat sheets that any two of them are", 
         const double psnr =
             psnr_against(book, texture, kind, 0.15, by_positions(book, book_distance), &report);
         INFO(angle << " degrees, " << segments << " segments");
-        CHECK(psnr >= 80);
+        CHECK(psnr >= 120);
         CHECK(report.refinement == "bisection");
         CHECK(report.without_sample == 0);
       }
@@ -122,7 +122,7 @@ TEST_CASE("a Moebius strip filters as its unrolled double cover", "[soup]") {
     };
     for (const FilterKind kind : {FilterKind::bilateral, FilterKind::gaussian}) {
       INFO(segments);
-      CHECK(psnr_against(strip, texture, kind, 0.2, distances) >= 80);
+      CHECK(psnr_against(strip, texture, kind, 0.2, distances) >= 120);
     }
   }
 }
@@ -143,8 +143,8 @@ TEST_CASE("paths between the halves of a bow tie lead through their common corne
   const auto distance = [](const Vec3& a, const Vec3& b) {
     return (a.x() < 0) == (b.x() < 0) ? (a - b).norm() : a.norm() + b.norm();
   };
-  CHECK(psnr_against(tie, texture, FilterKind::bilateral, 0.15, by_positions(tie, distance)) >= 60);
-  CHECK(psnr_against(tie, texture, FilterKind::gaussian, 0.15, by_positions(tie, distance)) >= 60);
+  CHECK(psnr_against(tie, texture, FilterKind::bilateral, 0.15, by_positions(tie, distance)) >= 70);
+  CHECK(psnr_against(tie, texture, FilterKind::gaussian, 0.15, by_positions(tie, distance)) >= 70);
 }
 
 TEST_CASE("loose triangles filter like the mesh they were", "[soup]") {
@@ -346,14 +346,14 @@ TEST_CASE("over a spine the gutter goes on into the page that lies straight ahea
     const Vec2 corner = book.uvs[book.face_uvs[2 * page][0]];
     for (const Index t : filled) {
       const double u = (t % 192 + 0.5) / 192, v = 1 - (double(t / 192) + 0.5) / 192;
-      if (u > corner.x() || u < corner.x() - 2.0 / 192) continue;
+      if (u > corner.x() || u < corner.x() - 1.2 / 192) continue;
       if (v < corner.y() + 0.05 || v > corner.y() + 0.3) continue;
       const double beyond = (corner.x() - u) * 192 * texel;
       worst = std::max(worst, std::abs(texture.texel(t)[0] - (page == 0 ? -beyond : beyond)));
       ++count;
     }
   }
-  CHECK(count > 100);
+  CHECK(count > 60);
   CHECK(worst < 1e-4);
 }
 
