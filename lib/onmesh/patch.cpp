@@ -179,6 +179,7 @@ double distance_across(double da, double db, double l, double a, double b) {
 struct Growth {
   Numbering nodes;
   std::vector<double> distance;  // per numbered node
+  double noise = 1e-9;           // relative error that was put up with
 };
 
 Growth march_from(const NodeMesh& mesh, const Numbering& core, double reach) {
@@ -199,10 +200,17 @@ Growth march_from(const NodeMesh& mesh, const Numbering& core, double reach) {
                                     [&](Index f) { return core.find(f) != kNone; });
     if (!inside) queue.push({0, i});
   }
+  // Most nodes are visited a few times. The estimates of thin faces can lower each other by less
+  // and less for a very long time; then more and more counts as noise.
+  std::size_t visits = 0, patience = 1000;
   while (!queue.empty()) {
     const auto [d, i] = queue.top();
     queue.pop();
     if (d > growth.distance[i]) continue;
+    if (++visits > patience + 32 * growth.distance.size()) {
+      patience += growth.distance.size();
+      growth.noise = std::min(1.0, 2 * growth.noise);
+    }
     const Index v = growth.nodes.keys()[i];
     for (Index at = mesh.node_offsets[v]; at < mesh.node_offsets[v + 1]; ++at) {
       const Index f = mesh.node_faces[at];
@@ -221,7 +229,7 @@ Growth march_from(const NodeMesh& mesh, const Numbering& core, double reach) {
                 ? growth.distance[n[0]] + (k == 1 ? l[0] : l[2])
                 : distance_across(growth.distance[n[a]], growth.distance[n[b]], l[a], l[k], l[b]);
         // A threshold, so that rounding cannot keep the march busy.
-        if (there >= growth.distance[n[k]] * (1 - 1e-9) - 1e-12 * longest) continue;
+        if (there >= growth.distance[n[k]] * (1 - growth.noise) - 1e-12 * longest) continue;
         growth.distance[n[k]] = there;
         queue.push({there, n[k]});
       }
@@ -233,6 +241,7 @@ Growth march_from(const NodeMesh& mesh, const Numbering& core, double reach) {
 // Whether the face can hold a point within reach: on each edge the distance is at least
 // (d_a + d_b - l) / 2, and paths enter the face over an edge.
 bool within(const Growth& growth, const NodeMesh& mesh, Index face, double reach) {
+  if (growth.noise > 1e-9) reach *= 1 + 16 * growth.noise;  // noise may add up on the way
   std::array<double, 3> d;
   for (int k = 0; k < 3; ++k) {
     const Index i = growth.nodes.find(mesh.faces[face][k]);
