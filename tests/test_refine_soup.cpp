@@ -194,7 +194,7 @@ TEST_CASE("bisection honours max_nodes and refuses senseless spacings", "[refine
   CHECK_THROWS_AS(refine_soup(make_book(1), options), InputError);
 }
 
-TEST_CASE("only meshes that are not manifold are bisected", "[refine_soup]") {
+TEST_CASE("only branching and one-sided meshes are bisected", "[refine_soup]") {
   RefineOptions options;
   options.spacing = 0.3;
   for (const TriangleMesh& mesh : {make_cube(), make_book(2), make_bow_tie(1), make_moebius(2)}) {
@@ -202,10 +202,46 @@ TEST_CASE("only meshes that are not manifold are bisected", "[refine_soup]") {
     const TriangleMesh cleaned = clean(mesh, &cleaning);
     RefineReport report;
     refine(cleaned, cleaning, options, &report);
-    CHECK(report.bisected == !cleaning.manifold());
+    CHECK(report.bisected == (mesh.faces == make_book(2).faces || !cleaning.orientable));
     CHECK(cleaning.manifold() == (mesh.faces.size() == 12));
     CHECK(cleaning.defects().empty() == cleaning.manifold());
   }
+}
+
+TEST_CASE("a bow tie is one node that both halves keep, and nodes are dense there",
+          "[refine_soup]") {
+  const TriangleMesh tie = make_bow_tie(4);
+  CleanReport cleaning;
+  const TriangleMesh cleaned = clean(tie, &cleaning);
+  REQUIRE(cleaning.bow_ties == 1);
+  RefineOptions options;
+  options.spacing = 0.2;
+  RefineReport report;
+  const NodeSurface surface = refine(cleaned, cleaning, options, &report);
+  CHECK_FALSE(report.bisected);
+  CHECK(report.nodes == surface.nodes.nodes.size());
+  double area = 0;
+  for (Index f = 0; f < surface.nodes.faces.size(); ++f) {
+    area += surface.nodes.face_area(f);
+    for (const Index n : surface.nodes.faces[f]) REQUIRE(n < surface.nodes.nodes.size());
+  }
+  double expected = 0;
+  for (Index f = 0; f < cleaned.faces.size(); ++f) expected += cleaned.face_area(f);
+  CHECK(area == Approx(expected));
+  // Every node lies where its face says, and all are joined.
+  std::vector<Index> reached{0};
+  std::vector<bool> seen(surface.nodes.nodes.size(), false);
+  seen[0] = true;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    for (Index k = surface.nodes.node_offsets[reached[i]];
+         k < surface.nodes.node_offsets[reached[i] + 1]; ++k) {
+      for (const Index n : surface.nodes.faces[surface.nodes.node_faces[k]]) {
+        if (!seen[n]) reached.push_back(n);
+        seen[n] = true;
+      }
+    }
+  }
+  CHECK(reached.size() == surface.nodes.nodes.size());
 }
 
 }  // namespace

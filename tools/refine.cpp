@@ -78,7 +78,7 @@ int run_refine(const std::vector<std::string>& arguments) {
   CleanReport cleaning;
   const TriangleMesh mesh = clean(read, &cleaning);
   warn(warnings);
-  if (!cleaning.manifold() && !values["min-angle"].defaulted()) {
+  if (!cleaning.manifold_apart() && !values["min-angle"].defaulted()) {
     throw UsageError("--min-angle: " + path + " is not manifold (" + cleaning.defects() +
                      "), and bisection keeps no angle bound");
   }

@@ -88,7 +88,8 @@ TriangleMesh cleaned(const TriangleMesh& mesh, std::vector<bool>& faces, CleanRe
   if (report.flipped > 0) warnings.push_back(faces_text(report.flipped) + " turned over");
   if (!report.manifold()) {
     warnings.push_back("the mesh is not manifold: " + report.defects() +
-                       "; it is filtered across them, with nodes by bisection");
+                       "; it is filtered across them" +
+                       (report.manifold_apart() ? "" : ", with nodes by bisection"));
   }
   return clean_mesh;
 }

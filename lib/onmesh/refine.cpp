@@ -6,6 +6,7 @@
 #include <queue>
 #include <string>
 
+#include "onmesh/edge_table.h"
 #include "onmesh/error.h"
 #include "onmesh/intrinsic.h"
 #include "onmesh/refine_soup.h"
@@ -77,6 +78,10 @@ class Refiner {
                                             : std::abs(2 * std::numbers::pi - angle);
       spacing_[v] = std::max(finest, options_.spacing / (1 + 2 * bend));
       if (spacing_[v] < options_.spacing) front.emplace(spacing_[v], v);
+    }
+    for (const Index v : options_.singular) {
+      spacing_[v] = finest;
+      front.emplace(finest, v);
     }
     const HalfEdges& e = t_.input();
     while (!front.empty()) {
@@ -300,11 +305,61 @@ NodeSurface refine(const TriangleMesh& mesh, const HalfEdgeMesh& half_edges,
   return surface;
 }
 
+namespace {
+
+/// Refine a mesh that is manifold but for vertices with several fans of faces: with a vertex for
+/// each fan, which become one node again.
+NodeSurface refine_fans_apart(const TriangleMesh& mesh, RefineOptions options,
+                              RefineReport* report) {
+  const Index vertices = Index(mesh.positions.size());
+  DisjointSets fans = join_fans(mesh, EdgeTable(mesh));
+  TriangleMesh apart = mesh;
+  std::vector<Index> vertex_of_fan(3 * mesh.faces.size(), kNone), original;
+  std::vector<bool> is_taken(vertices, false);
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    for (Index k = 0; k < 3; ++k) {
+      const Index v = mesh.faces[f][k];
+      Index& own = vertex_of_fan[fans.find(3 * f + k)];
+      if (own == kNone && !is_taken[v]) {
+        is_taken[v] = true;
+        own = v;
+      } else if (own == kNone) {
+        own = Index(apart.positions.size());
+        apart.positions.push_back(mesh.positions[v]);
+        original.push_back(v);
+      }
+      apart.faces[f][k] = own;
+    }
+  }
+  for (Index i = 0; i < original.size(); ++i) {
+    options.singular.push_back(original[i]);
+    options.singular.push_back(vertices + i);
+  }
+  NodeSurface surface = refine(apart, make_half_edge_mesh(apart), options, report);
+
+  NodeMesh& nodes = surface.nodes;
+  const Index added = Index(original.size());
+  nodes.nodes.erase(nodes.nodes.begin() + vertices, nodes.nodes.begin() + vertices + added);
+  for (auto& face : nodes.faces) {
+    for (Index& n : face) {
+      if (n >= vertices) n = n < vertices + added ? original[n - vertices] : n - added;
+    }
+  }
+  nodes.build_incidence();
+  if (report != nullptr) {
+    report->input_vertices = vertices;
+    report->nodes -= added;
+  }
+  return surface;
+}
+
+}  // namespace
+
 NodeSurface refine(const TriangleMesh& mesh, const CleanReport& cleaning,
                    const RefineOptions& options, RefineReport* report) {
-  return cleaning.manifold() && !options.flat_faces
-             ? refine(mesh, make_half_edge_mesh(mesh), options, report)
-             : refine_soup(mesh, options, report);
+  if (options.flat_faces || !cleaning.manifold_apart()) return refine_soup(mesh, options, report);
+  if (cleaning.bow_ties > 0) return refine_fans_apart(mesh, options, report);
+  return refine(mesh, make_half_edge_mesh(mesh), options, report);
 }
 
 }  // namespace onmesh

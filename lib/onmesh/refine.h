@@ -1,6 +1,8 @@
 // Refinement of a mesh into nodes: intrinsic Delaunay refinement to a graded size.
 #pragma once
 
+#include <vector>
+
 #include "onmesh/half_edge_mesh.h"
 #include "onmesh/overlay.h"
 
@@ -15,6 +17,7 @@ struct RefineOptions {
   /// Refine even a manifold mesh by bisection, so that node faces are flat in space: bridges, whose
   /// lengths are straight, need that.
   bool flat_faces = false;
+  std::vector<Index> singular;  ///< vertices that get the finest spacing whatever the angles there
   Index max_nodes = 200'000'000;  ///< stop with an InputError beyond
 };
 
