@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 
+#include "onmesh/classify.h"
 #include "onmesh/error.h"
 #include "onmesh/recut.h"
 #include "onmesh/shapes.h"
@@ -112,6 +113,45 @@ void check_isometric(const TriangleMesh& mesh, double width, double height) {
 }
 
 }  // namespace
+
+TEST_CASE("the Moebius strip is one-sided, closed, and true to its chart", "[shapes]") {
+  for (const int n : {1, 2, 5}) {
+    for (const double width : {1.0, 0.3}) {
+      const TriangleMesh mesh = make_moebius(n, 8, width);
+      const MeshReport r = classify(mesh);
+      CHECK_FALSE(r.orientable);
+      CHECK(r.nonmanifold_edges + r.nonmanifold_vertices == 0);
+      CHECK(r.components == 1);
+      CHECK(r.charts == 1);
+      CHECK(r.boundary_loops == 1);
+      CHECK(r.surface_area == Approx(8 * width));
+      CHECK(r.density_min == Approx(kMoebiusScale / 8));
+      double worst = 0;
+      for (Index f = 0; f < mesh.faces.size(); ++f) {
+        const auto p = mesh.corners(f);
+        const auto u = mesh.corner_uvs(f);
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::size_t l = (k + 1) % 3;
+          worst = std::max(
+              worst, std::abs((p[l] - p[k]).norm() - (u[l] - u[k]).norm() * 8 / kMoebiusScale));
+        }
+      }
+      CHECK(worst < 1e-13);
+    }
+  }
+  CHECK_THROWS_AS(make_moebius(0), UsageError);
+  CHECK_THROWS_AS(make_moebius(1, 8, 1.1), UsageError);
+}
+
+TEST_CASE("the bow tie's halves share one vertex and nothing else", "[shapes]") {
+  const MeshReport r = classify(make_bow_tie(3));
+  CHECK(r.nonmanifold_vertices == 1);
+  CHECK(r.nonmanifold_edges == 0);
+  CHECK(r.components == 1);
+  CHECK(r.charts == 2);
+  CHECK(r.surface_area == Approx(2));
+  CHECK(r.max_overlap <= 1);
+}
 
 TEST_CASE("closed shapes are closed and wound outward", "[shapes]") {
   for (const auto& [name, mesh] : closed_shapes()) {

@@ -241,6 +241,64 @@ TEST_CASE("distances on a plane are straight with every back end", "[tools][dist
   }
 }
 
+TEST_CASE("a bridge leads distances over to the other component", "[tools][distance]") {
+  const Workspace space;
+  space.must("make-mesh chest --segments 2 --gap 0.05 -o m.obj -t m.png --size 32");
+  const std::string base = "distance m.obj --vertex 0 --json --bridge ";
+  const auto apart = space.must(base + "0").json(), narrow = space.must(base + "0.04").json();
+  const auto joined = space.must(base + "0.06").json();
+  CHECK(apart["vertices_reached"] == narrow["vertices_reached"]);
+  CHECK(apart["refinement"] == "intrinsic");
+  CHECK(narrow["bridges"] == 0);
+  CHECK(joined["bridges"] > 0);
+  CHECK(joined["vertices_reached"] == joined["vertices"]);
+  CHECK(space.run(base + "0.06 --distance heat").code == 2);
+  CHECK(space.run(base + "0.06 --compare exact").code == 2);
+  CHECK(space.run(base + "-1").code == 2);
+  CHECK(space.run("filter m.obj -o o.png --bridge 0.06 --distance exact").code == 2);
+  const auto report = space.must("filter m.obj -o o.png --bridge 0.06 --json --quiet").json();
+  CHECK(report["counts"]["bridges"] > 0);
+  CHECK(report["refinement"] == "bisection");
+}
+
+TEST_CASE("a cube as loose triangles gives the bytes of the cube", "[tools][filter]") {
+  const Workspace space;
+  space.must("make-mesh noisy-cube --segments 3 -o m.obj -t m.png --size 128");
+  space.must("make-mesh noisy-cube --segments 3 --soup -o soup.obj");
+  const auto soup = space.must("info soup.obj --json").json();
+  CHECK(soup["vertices_in_file"] == 3 * soup["faces"].get<int>());
+  space.must("filter m.obj -o a.png --sigma-spatial 3tx --quiet");
+  space.must("filter soup.obj -t m.png -o b.png --sigma-spatial 3tx --quiet");
+  CHECK(content_of(space / "a.png") == content_of(space / "b.png"));
+}
+
+TEST_CASE("real meshes that are not manifold are filtered, or told why not", "[tools][filter]") {
+  const std::filesystem::path folder = ONMESH_SOURCE_DIR "/../shared/data";
+  if (!std::filesystem::exists(folder)) {
+    WARN("skipped: no ../shared/data");
+    return;
+  }
+  const Workspace space;
+  const Run flag =
+      space.run("filter '" + (folder / "kenney_flag/flag.obj").string() + "' -o o.png");
+  CHECK(flag.code == 3);
+  CHECK_THAT(flag.err, Contains("no face have any area") && Contains("nothing to filter"));
+  space.must("make-mesh plane -o m.obj -t small.png --size 128 --noise 0.2");
+  for (const char* file :
+       {"milk_truck/milk_truck.obj", "spider/spider.obj", "cup_scan/textured-0008192.obj"}) {
+    INFO(file);
+    const Run run = space.must("filter '" + (folder / file).string() +
+                               "' -t small.png --material all -o o.exr --json");
+    const Image image = read_image(space / "o.exr");
+    bool within = true;
+    for (const float v : image.pixels) within = within && v >= 0 && v <= 1;
+    CHECK(within);
+    const bool tie = std::string(file).rfind("milk", 0) == 0;
+    CHECK((run.err.find("2 vertices join parts that share no edge") != std::string::npos) == tie);
+    CHECK(run.json()["counts"]["texels"] > 1000);
+  }
+}
+
 TEST_CASE("distances stop at the radius and never reach another component", "[tools][distance]") {
   const Workspace space;
   space.must("make-mesh chest --segments 2 -o m.obj -t m.png --size 32");

@@ -204,6 +204,21 @@ TEST_CASE("a small fin is dropped, a flag on a pole is not", "[triangle_mesh]") 
   CHECK(report.duplicates == 1);
 }
 
+TEST_CASE("a loosened mesh welds to what it was", "[triangle_mesh]") {
+  TriangleMesh mesh = make(kTetrahedron, kOutward);
+  mesh.uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+  mesh.face_uvs = mesh.faces;
+  mesh.face_uvs[2][1] = kNone;
+  const TriangleMesh loose = loosen(mesh);
+  CHECK(loose.positions.size() == 12);
+  CHECK(loose.uvs.size() == 11);
+  const TriangleMesh welded = weld(loose);
+  CHECK(welded.positions.size() == 4);
+  CHECK(welded.uvs.size() == 4);
+  for (Index f = 0; f < 4; ++f) CHECK(welded.corners(f) == mesh.corners(f));
+  CHECK(welded.face_uvs[2][1] == kNone);
+}
+
 TEST_CASE("extracted faces keep their corners", "[triangle_mesh]") {
   TriangleMesh mesh = make(kTetrahedron, kOutward);
   mesh.uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
