@@ -26,8 +26,10 @@ struct NodeSpacing {
   double smooth = 0, finest = 0;
 };
 
-/// The spacing rule: as coarse as sigma, a quarter of it where distances bend, but with enough
-/// texels per node face to keep the kernel busy.
+/// The spacing rule: 1.5 sigma where the surface is smooth (interpolation is exact on flat and
+/// folded surface, and its error falls with the square of the spacing over the radius of
+/// curvature), a quarter of sigma where distances bend, but with enough texels per node face to
+/// keep the kernel busy.
 NodeSpacing node_spacing_for(double sigma, double texel_size);
 
 }  // namespace onmesh
