@@ -20,7 +20,8 @@ struct FlatPatch {
   std::vector<Vec2> positions;       ///< per texel
 
   KernelInput input() const {
-    return {&patch, &table, &samples, &samples, {colours.data(), channels, channels, channels}};
+    return {
+        &patch, &table, &samples, &samples, {colours.data(), channels, channels, channels, width}};
   }
 };
 

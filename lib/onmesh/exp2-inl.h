@@ -15,12 +15,10 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// 2^x with a relative error below 2.7e-6, for x in [-100, 127]; 0 below. Tinier weights would make
-/// denormal products, which cost some processors a hundred times as much as others.
+/// 2^x with a relative error below 2.7e-6. \pre x in [-126, 127]
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V exp2(D d, V x) {
+HWY_INLINE V exp2_in_range(D d, V x) {
   const hn::RebindToSigned<D> di;
-  const auto counts = hn::Ge(x, hn::Set(d, -100.0F));
   // Adding 1.5 * 2^23 leaves the nearest integer in the low bits of the mantissa.
   const V magic = hn::Set(d, 12582912.0F);
   const V shifted = hn::Add(x, magic);
@@ -33,7 +31,14 @@ HWY_INLINE V exp2(D d, V x) {
   p = hn::MulAdd(p, f, hn::Set(d, 0.9999992847442627F));
   // Multiply by 2^integer: add it to the exponent's bits.
   const auto exponent = hn::ShiftLeft<23>(hn::BitCast(di, shifted));
-  return hn::IfThenElseZero(counts, hn::BitCast(d, hn::Add(hn::BitCast(di, p), exponent)));
+  return hn::BitCast(d, hn::Add(hn::BitCast(di, p), exponent));
+}
+
+/// The same for any x up to 127; 2^-100 below -100. Tinier weights would make denormal products,
+/// which cost some processors a hundred times as much as others.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V exp2(D d, V x) {
+  return exp2_in_range(d, hn::Max(x, hn::Set(d, -100.0F)));
 }
 
 }  // namespace

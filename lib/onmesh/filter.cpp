@@ -61,14 +61,14 @@ Colours gather_colours(const Image& texture, bool bilateral, std::vector<float>&
   const std::vector<int> channels = texture.range_channels();
   const auto count = static_cast<int>(channels.size());
   if (channels.back() == count - 1) {
-    return {texture.pixels.data(), count, bilateral ? count : 0, texture.channels};
+    return {texture.pixels.data(), count, bilateral ? count : 0, texture.channels, texture.width};
   }
   const auto texels = std::size_t(texture.width) * std::size_t(texture.height);
   packed.reserve(texels * channels.size());
   for (std::size_t t = 0; t < texels; ++t) {
     for (const int c : channels) packed.push_back(texture.texel(Index(t))[c]);
   }
-  return {packed.data(), count, bilateral ? count : 0, count};
+  return {packed.data(), count, bilateral ? count : 0, count, texture.width};
 }
 
 /// The map with only the first claim of every texel (the lowest face's).

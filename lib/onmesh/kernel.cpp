@@ -22,6 +22,9 @@ namespace onmesh {
 namespace HWY_NAMESPACE {
 namespace {
 
+/// Exponent of lanes that must not count: far beyond any radius, but no infinity arithmetic.
+constexpr float kNever = -1e30F;
+
 /// The faces near some consecutive targets, with their corners renumbered. Which faces can hold a
 /// sample within the radius is decided once for several vectors of targets: a patch may be large.
 class Neighbourhood {
@@ -93,49 +96,40 @@ class Block {
         exponents_(hwy::AllocateAligned<float>(table_.columns * lanes_)),
         own_(hwy::AllocateAligned<float>(channels_ * lanes_)),
         sums_(hwy::AllocateAligned<float>((channels_ + 1) * lanes_)),
+        most_(table_.columns),
         unreachable_(table_.columns) {}
 
   /// Sum over all samples in the neighbourhood for the targets from `first` on.
   /// \return number of pairs within the radius
-  template <int kChannels, bool kRange>
+  template <int kChannels, RangeTerm kRange>
   std::uint64_t run(std::size_t first) {
     load(first);
     compute_exponents();
-    const V limit = hn::Set(d_, work_.limit);
+    Sums<kChannels, kRange> sums;
+    if constexpr (kChannels > 0) {
+      sums.clear(d_, own_.get());
+    } else {
+      sums = {&work_, own_.get(), sums_.get()};
+    }
+    const std::size_t count = find_hits();
     const std::size_t stride = work_.stride();
     const float* const records = work_.records.data();
+    const float* const corners = corner_exponents_.data();
     std::uint64_t pairs = 0;
-    for (const Neighbourhood::Face& face : near_.faces) {
-      const auto& n = face.corners;
-      V e0 = hn::Load(d_, exponents_.get() + n[0] * lanes_);
-      V e1 = hn::Load(d_, exponents_.get() + n[1] * lanes_);
-      V e2 = hn::Load(d_, exponents_.get() + n[2] * lanes_);
-      // d^2 at a sample is at least the smallest of the corners' less the sample's variance.
-      const V nearest = hn::Max(hn::Max(e0, e1), e2);
-      if (hn::AllFalse(d_, hn::Ge(nearest, hn::Sub(limit, hn::Set(d_, face.slack))))) continue;
-      if (unreachable_[n[0]] | unreachable_[n[1]] | unreachable_[n[2]]) {
-        const M apart = unreachable_lanes(face);
-        if (hn::AllTrue(d_, apart)) continue;
-        const V never = hn::Set(d_, kNever);
-        e0 = hn::IfThenElse(apart, never, e0);
-        e1 = hn::IfThenElse(apart, never, e1);
-        e2 = hn::IfThenElse(apart, never, e2);
-      }
-      const FaceExponents e{e0, hn::Sub(e1, e0), hn::Sub(e2, e0)};
-      const float* record = records + face.begin * stride;
-      const float* const end = records + face.end * stride;
-      while ((record = append(d_, record, end, stride, e, list_, pairs)) != end) {
-        flush<kChannels, kRange>();
-      }
+    for (std::size_t k = 0; k < count; ++k) {
+      const float* const at = corners + std::size_t(hit_faces_[k]) * 3 * lanes_;
+      const FaceExponents<V> e{hn::LoadU(d_, at), hn::LoadU(d_, at + lanes_),
+                               hn::LoadU(d_, at + 2 * lanes_)};
+      pairs += sums.add(d_, e, records + std::size_t(hits_[k]) * stride);
     }
-    flush<kChannels, kRange>();
+    if constexpr (kChannels > 0) sums.store(d_, sums_.get());
     return pairs;
   }
 
   /// Divide the sums by the weights. \return number of targets that kept their values
   std::uint64_t store(const Colours& colours, std::vector<float>& out) const {
     std::uint64_t kept = 0;
-    const bool range = work_.range_channels > 0;
+    const bool differences = work_.range_term == RangeTerm::difference;
     for (std::size_t lane = 0; lane < used_; ++lane) {
       const KernelWork::Target& target = targets_[lane];
       const float* const own =
@@ -144,8 +138,8 @@ class Block {
       const double weight = sums_[lane];
       const bool nothing = !(weight > kNothing);
       for (std::size_t c = 0; c < channels_; ++c) {
-        const double mean = nothing ? 0 : sums_[(c + 1) * lanes_ + lane] / weight;
-        const double value = range ? own[c] + mean / work_.colour_scale : mean;
+        const double mean = sums_[(c + 1) * lanes_ + lane] / (weight * work_.colour_scale);
+        const double value = (differences ? own[c] : work_.reference[c]) + mean;
         result[c] = nothing ? own[c] : static_cast<float>(value);
       }
       kept += nothing;
@@ -154,15 +148,61 @@ class Block {
   }
 
  private:
-  template <int kChannels, bool kRange>
-  HWY_INLINE void flush() {
-    if constexpr (kChannels > 0) {
-      add<kChannels, kRange>(d_, list_, own_.get(), sums_.get());
-    } else {
-      add_general(d_, work_, list_, own_.get(), sums_.get());
+  /// Lists the samples that some target may have within the radius, over all faces, so that they
+  /// can be summed in one long loop: short ones cost more in mispredicted branches than in sums.
+  std::size_t find_hits() {
+    // A little less than the limit: the bound is rounded differently.
+    const float limit = work_.limit * 1.0001F - 1e-4F;
+    // Faces first, without branches.
+    near_faces_.resize(near_.faces.size());
+    std::size_t faces = 0, samples = lanes_;
+    for (std::size_t f = 0; f < near_.faces.size(); ++f) {
+      const Neighbourhood::Face& face = near_.faces[f];
+      const auto& n = face.corners;
+      // d^2 at a sample is at least the smallest of the corners' less the sample's variance.
+      const float most = std::max({most_[n[0]], most_[n[1]], most_[n[2]]});
+      const bool is_near = most + face.slack >= limit;
+      near_faces_[faces] = Index(f);
+      faces += is_near;
+      samples += is_near ? face.end - face.begin : 0;
     }
-    list_.size = 0;
+    if (hits_.size() < samples) {
+      hits_.resize(2 * samples);
+      hit_faces_.resize(2 * samples);
+    }
+    if (corner_exponents_.size() < faces * 3 * lanes_) {
+      corner_exponents_.resize(2 * faces * 3 * lanes_);
+    }
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < faces; ++i) {
+      const Neighbourhood::Face& face = near_.faces[near_faces_[i]];
+      const auto& n = face.corners;
+      V e0 = hn::Load(d_, exponents_.get() + n[0] * lanes_);
+      V e1 = hn::Load(d_, exponents_.get() + n[1] * lanes_);
+      V e2 = hn::Load(d_, exponents_.get() + n[2] * lanes_);
+      FaceExponents<float> most{most_[n[0]], most_[n[1]], most_[n[2]]};
+      if (unreachable_[n[0]] | unreachable_[n[1]] | unreachable_[n[2]]) {
+        const M apart = unreachable_lanes(face);
+        if (hn::AllTrue(d_, apart)) continue;
+        const V never = hn::Set(d_, kNever);
+        e0 = hn::IfThenElse(apart, never, e0);
+        e1 = hn::IfThenElse(apart, never, e1);
+        e2 = hn::IfThenElse(apart, never, e2);
+        most = {largest_lane(e0), largest_lane(e1), largest_lane(e2)};
+      }
+      float* const at = corner_exponents_.data() + i * 3 * lanes_;
+      hn::StoreU(e0, d_, at);
+      hn::StoreU(hn::Sub(e1, e0), d_, at + lanes_);
+      hn::StoreU(hn::Sub(e2, e0), d_, at + 2 * lanes_);
+      most.to_corner1 -= most.corner0;
+      most.to_corner2 -= most.corner0;
+      count += HWY_NAMESPACE::find_hits(d_, work_, face.begin, face.end, most, limit, Index(i),
+                                        hits_.data() + count, hit_faces_.data() + count);
+    }
+    return count;
   }
+
+  float largest_lane(V x) const { return hn::GetLane(hn::MaxOfLanes(d_, x)); }
 
   /// Take over targets first, first + 1, ... and list the nodes around them: barycentric_ holds,
   /// for every node of corners_, its scaled barycentric coordinate in each lane's target (0 where
@@ -206,6 +246,7 @@ class Block {
         e = hn::MulAdd(hn::Load(d_, barycentric_.get() + i * lanes_), hn::Set(d_, squared), e);
       }
       hn::Store(e, d_, exponents_.get() + k * lanes_);
+      most_[k] = largest_lane(e);
       unreachable_[k] = largest >= kUnreachable;
     }
   }
@@ -239,7 +280,11 @@ class Block {
   std::vector<Index> corners_;
   std::vector<const float*> rows_;
   hwy::AlignedFreeUniquePtr<float[]> barycentric_, exponents_, own_, sums_;
-  NearList list_;
+  std::vector<float> most_;  ///< by node: the largest exponent of any target
+  std::vector<Index> near_faces_;
+  /// Per near face: the targets' exponents at corner 0, and the differences to it at the others.
+  std::vector<float> corner_exponents_;
+  std::vector<Index> hits_, hit_faces_;    ///< records, and which of the near faces they are in
   std::vector<std::uint8_t> unreachable_;  ///< by node: some target may not reach it
   HWY_ALIGN float variance_[hn::MaxLanes(D())] = {};
   HWY_ALIGN float apart_[hn::MaxLanes(D()) + 1] = {};
@@ -248,7 +293,7 @@ class Block {
 /// Vectors of targets that share a neighbourhood.
 constexpr std::size_t kBlocksTogether = 8;
 
-template <int kChannels, bool kRange>
+template <int kChannels, RangeTerm kRange>
 KernelCounts run_blocks(const KernelInput& input, const KernelWork& work, std::vector<float>& out) {
   KernelCounts counts;
   Neighbourhood near(input, work);
@@ -265,27 +310,34 @@ KernelCounts run_blocks(const KernelInput& input, const KernelWork& work, std::v
   return counts;
 }
 
+template <int kChannels>
+KernelCounts run_term(const KernelInput& input, const KernelWork& work, std::vector<float>& out) {
+  switch (work.range_term) {
+    case RangeTerm::none:
+      return run_blocks<kChannels, RangeTerm::none>(input, work, out);
+    case RangeTerm::product:
+      return run_blocks<kChannels, RangeTerm::product>(input, work, out);
+    default:
+      return run_blocks<kChannels, RangeTerm::difference>(input, work, out);
+  }
+}
+
 KernelCounts run_patch(const KernelInput& input, const KernelWork& work, std::vector<float>& out) {
-  const bool range = work.range_channels > 0;
-  if (!range || work.range_channels == work.channels) {
+  if (work.range_channels == 0 || work.range_channels == work.channels) {
     switch (work.channels) {
       case 1:
-        return range ? run_blocks<1, true>(input, work, out)
-                     : run_blocks<1, false>(input, work, out);
+        return run_term<1>(input, work, out);
       case 2:
-        return range ? run_blocks<2, true>(input, work, out)
-                     : run_blocks<2, false>(input, work, out);
+        return run_term<2>(input, work, out);
       case 3:
-        return range ? run_blocks<3, true>(input, work, out)
-                     : run_blocks<3, false>(input, work, out);
+        return run_term<3>(input, work, out);
       case 4:
-        return range ? run_blocks<4, true>(input, work, out)
-                     : run_blocks<4, false>(input, work, out);
+        return run_term<4>(input, work, out);
       default:
         break;
     }
   }
-  return run_blocks<0, false>(input, work, out);
+  return run_blocks<0, RangeTerm::difference>(input, work, out);
 }
 
 const char* target_name() { return hwy::TargetName(HWY_TARGET); }

@@ -8,6 +8,13 @@
 namespace onmesh {
 namespace {
 
+/// Below this log2 of its area relative to the patch's largest a sample counts for nothing.
+constexpr float kNoArea = -120;
+/// Largest square of a scaled colour for which the product term is used, and least exponent of a
+/// sample without its colour: then all exponents are in the range of exp2_in_range(), and exact to
+/// 1e-5.
+constexpr float kLargestProduct = 27, kLeastExponent = -42;
+
 Vec3 barycentric(const Sample& s) { return {1.0 - s.b1 - s.b2, s.b1, s.b2}; }
 
 /// Which faces of the patch can hold a sample within reach of one of the work's targets.
@@ -30,30 +37,55 @@ std::vector<unsigned char> find_faces_near(const KernelInput& input, const Kerne
   return is_near;
 }
 
-/// \param is_needed per local face; empty: all are
-void gather_samples(const KernelInput& input, double variance_scale,
-                    const std::vector<unsigned char>& is_needed, KernelWork& work) {
+float largest_area(const Patch& patch, const Samples& sources) {
+  float largest = 0;
+  for (const Index f : patch.faces) {
+    for (Index k = sources.face_offsets[f]; k < sources.face_offsets[f + 1]; ++k) {
+      largest = std::max(largest, sources.samples[k].area);
+    }
+  }
+  return largest;
+}
+
+/// Of all samples gathered: the largest square of a scaled colour and the least log2 of an area.
+struct Extremes {
+  float square = 0, log_area = 0;
+};
+
+/// The records of the faces marked. kChannels: how many there are, or 0 for any number.
+template <int kChannels>
+Extremes gather_samples(const KernelInput& input, double variance_scale,
+                        const std::vector<unsigned char>& is_needed, KernelWork& work) {
   const Patch& patch = *input.patch;
   const Samples& sources = *input.sources;
   const Colours& colours = input.colours;
+  const int channels = kChannels > 0 ? kChannels : work.channels;
+  const float scale = work.colour_scale, limit = work.limit;
+  const float* const reference = work.reference.data();
 
-  float largest_area = 0;
   std::size_t count = 0;
-  for (const Index f : patch.faces) {
-    for (Index k = sources.face_offsets[f]; k < sources.face_offsets[f + 1]; ++k) {
-      largest_area = std::max(largest_area, sources.samples[k].area);
-    }
-    count += sources.face_offsets[f + 1] - sources.face_offsets[f];
+  for (std::size_t local = 0; local < patch.faces.size(); ++local) {
+    const Index f = patch.faces[local];
+    if (is_needed[local]) count += sources.face_offsets[f + 1] - sources.face_offsets[f];
   }
   work.faces.clear();
-  work.records.resize(count * work.stride());
+  if (work.records.size() < count * work.stride()) work.records.resize(count * work.stride());
+  for (std::vector<float>* array : {&work.b1, &work.b2, &work.variance}) {
+    if (array->size() < count + KernelWork::kPadding) array->resize(count + KernelWork::kPadding);
+  }
 
+  const float inverse_area = 1 / largest_area(patch, sources);
   float* record = work.records.data();
   std::size_t used = 0;
-  float last_share = 1, log_area = 0;  // most neighbours stand for the same area
+  float last_area = -1, log_area = 0;  // most neighbours stand for the same area
+  Extremes extremes;
   for (std::size_t local = 0; local < patch.faces.size(); ++local) {
-    if (!is_needed.empty() && !is_needed[local]) continue;
+    if (!is_needed[local]) continue;
     const Index f = patch.faces[local];
+    const auto& l = patch.lengths[local];
+    const std::array<float, 3> squared{float(variance_scale * l[0] * l[0]),
+                                       float(variance_scale * l[1] * l[1]),
+                                       float(variance_scale * l[2] * l[2])};
     KernelWork::Face face;
     face.corners = patch.corners[local];
     face.begin = used;
@@ -61,22 +93,30 @@ void gather_samples(const KernelInput& input, double variance_scale,
       const Sample& s = sources.samples[k];
       const float* const colour =
           colours.values + std::size_t(s.texel) * std::size_t(colours.stride);
-      const float share = s.area / largest_area;
-      if (!(share > 0) || !is_usable(colour, work.channels, work.colour_scale)) continue;
-      if (share != last_share) {
-        last_share = share;
-        log_area = std::log2(share);
+      if (s.area != last_area) {
+        last_area = s.area;
+        log_area = std::log2(s.area * inverse_area);  // -inf or NaN where there is no area
       }
-      const auto variance = static_cast<float>(
-          variance_scale * barycentric_variance(patch.lengths[local], barycentric(s)));
+      if (!(log_area > kNoArea) || !is_usable(colour, channels, scale)) continue;
+      const float b0 = 1 - s.b1 - s.b2;
+      const float variance =
+          b0 * s.b1 * squared[0] + s.b1 * s.b2 * squared[1] + s.b2 * b0 * squared[2];
       record[0] = s.b1;
       record[1] = s.b2;
       record[2] = variance + log_area;
       record[3] = log_area;
-      record[4] = work.limit + log_area;
-      for (int c = 0; c < work.channels; ++c) {
-        record[KernelWork::kFixed + std::size_t(c)] = colour[c] * work.colour_scale;
+      record[4] = limit + log_area;
+      float square = 0;
+      for (int c = 0; c < channels; ++c) {
+        const float y = (colour[c] - reference[c]) * scale;
+        record[KernelWork::kFixed + std::size_t(c)] = y;
+        square += y * y;
       }
+      work.b1[used] = s.b1;
+      work.b2[used] = s.b2;
+      work.variance[used] = variance;
+      extremes.square = std::max(extremes.square, square);
+      extremes.log_area = std::min(extremes.log_area, log_area);
       record += work.stride();
       ++used;
       face.slack = std::max(face.slack, variance);
@@ -84,44 +124,122 @@ void gather_samples(const KernelInput& input, double variance_scale,
     face.end = used;
     if (face.end > face.begin) work.faces.push_back(face);
   }
+  return extremes;
 }
 
-/// The core faces that have targets, each next to its predecessor where possible, so that the
-/// targets that share a vector lie close together and need the same samples.
-std::vector<Index> neighbourly_order(const Patch& patch, const Samples& targets) {
-  std::vector<std::vector<Index>> faces_of_node(patch.core_nodes);
-  std::vector<bool> waiting(patch.core_faces, false);
-  for (Index f = 0; f < patch.core_faces; ++f) {
-    const Index global = patch.faces[f];
-    if (targets.face_offsets[global] == targets.face_offsets[global + 1]) continue;
-    waiting[f] = true;
-    for (const Index n : patch.corners[f]) faces_of_node[n].push_back(f);
+/// Choose how colours come into the weights, and prepare records and targets for it.
+void settle_range_term(const Extremes& extremes, KernelWork& work) {
+  if (work.range_channels == 0) {
+    work.range_term = RangeTerm::none;
+    return;
   }
-  std::vector<Index> order;
-  for (Index start = 0; start < patch.core_faces; ++start) {
-    Index next = waiting[start] ? start : kNone;
-    while (next != kNone) {
-      order.push_back(next);
-      waiting[next] = false;
-      const auto corners = patch.corners[next];
-      next = kNone;
-      int most_shared = 0;
-      for (const Index n : corners) {
-        for (const Index candidate : faces_of_node[n]) {
-          if (!waiting[candidate]) continue;
-          int shared = 0;
-          for (const Index a : patch.corners[candidate]) {
-            shared += int(std::count(corners.begin(), corners.end(), a));
-          }
-          if (shared > most_shared || (shared == most_shared && candidate < next)) {
-            most_shared = shared;
-            next = candidate;
+  float largest = extremes.square;
+  const auto channels = std::size_t(work.channels);
+  for (std::size_t k = 0; k < work.target_colours.size(); k += channels) {
+    float own = 0;
+    for (std::size_t c = k; c < k + channels; ++c)
+      own += work.target_colours[c] * work.target_colours[c];
+    largest = std::max(largest, own);
+  }
+  const bool product = work.range_channels == work.channels && channels <= 4 &&
+                       largest <= kLargestProduct &&
+                       work.limit + extremes.log_area >= kLeastExponent;
+  work.range_term = product ? RangeTerm::product : RangeTerm::difference;
+  if (work.range_term != RangeTerm::product) return;
+  const std::size_t stride = work.stride();
+  const std::size_t count = work.faces.empty() ? 0 : work.faces.back().end;
+  float* record = work.records.data();
+  for (std::size_t k = 0; k < count; ++k, record += stride) {
+    float square = 0;
+    for (std::size_t c = KernelWork::kFixed; c < stride; ++c) square += record[c] * record[c];
+    for (int i = 2; i < 5; ++i) record[i] -= square;
+  }
+  for (float& c : work.target_colours) c *= 2;
+}
+
+/// Groups of core faces that lie together and have some hundred targets each, one group next to its
+/// predecessor where possible.
+class FaceGroups {
+ public:
+  FaceGroups(const Patch& patch, const Samples& targets)
+      : patch_(patch), targets_(targets), offsets_(patch.core_nodes + 1, 0) {
+    waiting_.assign(patch.core_faces, false);
+    for (Index f = 0; f < patch.core_faces; ++f) {
+      waiting_[f] = count(f) > 0;
+      for (const Index n : patch.corners[f]) ++offsets_[n + 1];
+    }
+    for (Index n = 0; n < patch.core_nodes; ++n) offsets_[n + 1] += offsets_[n];
+    faces_.resize(offsets_.back());
+    std::vector<Index> next(offsets_.begin(), offsets_.end() - 1);
+    for (Index f = 0; f < patch.core_faces; ++f) {
+      for (const Index n : patch.corners[f]) faces_[next[n]++] = f;
+    }
+  }
+
+  /// The next group; empty if there is none.
+  const std::vector<Index>& next() {
+    group_.clear();
+    Index first = kNone;
+    for (; first == kNone && at_ < front_.size(); ++at_) {
+      if (waiting_[front_[at_]]) first = front_[at_];
+    }
+    for (; first == kNone && start_ < patch_.core_faces; ++start_) {
+      if (waiting_[start_]) first = start_;
+    }
+    if (first == kNone) return group_;
+    front_.clear();
+    at_ = 0;
+    Index targets = 0;
+    take(first, targets);
+    for (std::size_t k = 0; k < group_.size(); ++k) {
+      for (const Index n : patch_.corners[group_[k]]) {
+        for (Index i = offsets_[n]; i < offsets_[n + 1]; ++i) {
+          if (!waiting_[faces_[i]]) continue;
+          if (targets < kGroupTargets) {
+            take(faces_[i], targets);
+          } else {
+            front_.push_back(faces_[i]);
           }
         }
       }
     }
+    return group_;
   }
-  return order;
+
+ private:
+  static constexpr Index kGroupTargets = 512;
+
+  Index count(Index f) const {
+    const Index global = patch_.faces[f];
+    return targets_.face_offsets[global + 1] - targets_.face_offsets[global];
+  }
+  void take(Index f, Index& targets) {
+    waiting_[f] = false;
+    group_.push_back(f);
+    targets += count(f);
+  }
+
+  const Patch& patch_;
+  const Samples& targets_;
+  std::vector<Index> offsets_, faces_;  ///< core faces around each core node
+  std::vector<bool> waiting_;
+  std::vector<Index> group_, front_;
+  std::size_t at_ = 0;
+  Index start_ = 0;
+};
+
+/// The bits of a 16-bit number, a gap after each.
+std::uint32_t spread_bits(std::uint32_t x) {
+  x &= 0xffff;
+  x = (x | x << 8) & 0x00ff00ff;
+  x = (x | x << 4) & 0x0f0f0f0f;
+  x = (x | x << 2) & 0x33333333;
+  return (x | x << 1) & 0x55555555;
+}
+
+/// Numbers of texels along a Z-order curve: consecutive texels make small squares.
+std::uint32_t z_order(Index texel, Index width) {
+  return spread_bits(texel % width) | spread_bits(texel / width) << 1;
 }
 
 void gather_targets(const KernelInput& input, double variance_scale, KernelWork& work,
@@ -145,42 +263,71 @@ void gather_targets(const KernelInput& input, double variance_scale, KernelWork&
     work.target_colours.reserve(out.size());
   }
 
-  for (const Index f : neighbourly_order(patch, targets)) {
-    const Index begin = targets.face_offsets[patch.faces[f]];
-    for (Index slot = first_slot[f]; slot < first_slot[f + 1]; ++slot) {
-      if (input.only && !(*input.only)[slot]) continue;
-      const Sample& s = targets.samples[begin + slot - first_slot[f]];
-      const float* colour = colours.values + std::size_t(s.texel) * std::size_t(colours.stride);
-      if (!is_usable(colour, work.channels, work.colour_scale)) {
-        std::copy_n(colour, work.channels, out.begin() + std::ptrdiff_t(slot) * work.channels);
-        ++work.kept;
-        continue;
+  struct Place {
+    std::uint32_t order;
+    Index slot, face;
+  };
+  std::vector<Place> places;
+  const auto add = [&](const Place& place) {
+    const Index f = place.face;
+    const Sample& s =
+        targets.samples[targets.face_offsets[patch.faces[f]] + place.slot - first_slot[f]];
+    const float* colour = colours.values + std::size_t(s.texel) * std::size_t(colours.stride);
+    if (!is_usable(colour, work.channels, work.colour_scale)) {
+      std::copy_n(colour, work.channels, out.begin() + std::ptrdiff_t(place.slot) * work.channels);
+      ++work.kept;
+      return;
+    }
+    const Vec3 a = barycentric(s);
+    KernelWork::Target target;
+    target.corners = patch.corners[f];
+    for (int i = 0; i < 3; ++i) target.barycentric[i] = static_cast<float>(a[i]);
+    target.variance =
+        static_cast<float>(variance_scale * barycentric_variance(patch.lengths[f], a));
+    target.face = f;
+    target.slot = place.slot;
+    target.texel = s.texel;
+    work.targets.push_back(target);
+    work.target_colours.insert(work.target_colours.end(), colour, colour + work.channels);
+  };
+
+  // Targets that share a vector should lie in a small square, so that they need the same samples.
+  // Squares of the texture are squares of the surface within a few faces.
+  FaceGroups groups(patch, targets);
+  const auto width = static_cast<Index>(colours.width);
+  for (const auto* group = &groups.next(); !group->empty(); group = &groups.next()) {
+    places.clear();
+    for (const Index f : *group) {
+      const Index begin = targets.face_offsets[patch.faces[f]];
+      for (Index slot = first_slot[f]; slot < first_slot[f + 1]; ++slot) {
+        if (input.only && !(*input.only)[slot]) continue;
+        places.push_back(
+            {z_order(targets.samples[begin + slot - first_slot[f]].texel, width), slot, f});
       }
-      const Vec3 a = barycentric(s);
-      KernelWork::Target target;
-      target.corners = patch.corners[f];
-      for (int i = 0; i < 3; ++i) target.barycentric[i] = static_cast<float>(a[i]);
-      target.variance =
-          static_cast<float>(variance_scale * barycentric_variance(patch.lengths[f], a));
-      target.face = f;
-      target.slot = slot;
-      target.texel = s.texel;
-      work.targets.push_back(target);
-      for (int c = 0; c < work.channels; ++c) {
-        work.target_colours.push_back(colour[c] * work.colour_scale);
-      }
+    }
+    std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+      return a.order != b.order ? a.order < b.order : a.slot < b.slot;
+    });
+    for (const Place& place : places) add(place);
+  }
+
+  // Colours are counted from the middle of theirs.
+  const auto channels = std::size_t(work.channels);
+  work.reference.assign(channels, 0);
+  for (std::size_t c = 0; c < channels && !work.targets.empty(); ++c) {
+    float low = work.target_colours[c], high = low;
+    for (std::size_t k = c; k < work.target_colours.size(); k += channels) {
+      low = std::min(low, work.target_colours[k]);
+      high = std::max(high, work.target_colours[k]);
+    }
+    work.reference[c] = low + (high - low) / 2;
+    for (std::size_t k = c; k < work.target_colours.size(); k += channels) {
+      work.target_colours[k] = (work.target_colours[k] - work.reference[c]) * work.colour_scale;
     }
   }
 }
 
 }  // namespace
-
-bool is_usable(const float* colour, int channels, float scale) {
-  // Scaled colours beyond this would overflow when squared and summed.
-  constexpr float kLargest = 1e15F;
-  return std::all_of(colour, colour + channels,
-                     [scale](float c) { return std::abs(c * scale) < kLargest; });
-}
 
 void gather(const KernelInput& input, const KernelOptions& options, KernelWork& work,
             std::vector<float>& out) {
@@ -204,8 +351,20 @@ void gather(const KernelInput& input, const KernelOptions& options, KernelWork& 
     work.colour_scale = static_cast<float>(std::sqrt(half_log2e) / options.sigma_range);
   }
   gather_targets(input, scale, work, out);
-  gather_samples(input, scale,
-                 input.only ? find_faces_near(input, work) : std::vector<unsigned char>(), work);
+  const std::vector<unsigned char> is_near = find_faces_near(input, work);
+  const auto gather_them = [&] {
+    switch (work.channels) {
+      case 1:
+        return gather_samples<1>(input, scale, is_near, work);
+      case 3:
+        return gather_samples<3>(input, scale, is_near, work);
+      case 4:
+        return gather_samples<4>(input, scale, is_near, work);
+      default:
+        return gather_samples<0>(input, scale, is_near, work);
+    }
+  };
+  settle_range_term(gather_them(), work);
 }
 
 }  // namespace onmesh

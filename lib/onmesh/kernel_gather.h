@@ -2,15 +2,24 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "onmesh/kernel.h"
 
 namespace onmesh {
 
+/// How the colour difference of sample y and target x comes into a weight's exponent.
+enum class RangeTerm {
+  none,        ///< Gaussian filter
+  product,     ///< 2 x y - y^2: leaves out x^2, which all weights of a target have in common
+  difference,  ///< -(x - y)^2: where colours are so far apart that the product would cancel
+};
+
 /// What the kernel reads. Squared distances are scaled by -log2(e) / (2 sigma_s^2) and called
-/// exponents (they are added up and raised to the power of two); colours are scaled by
-/// sqrt(log2(e) / 2) / sigma_r, so that their squared differences are exponents too.
+/// exponents (they are added up and raised to the power of two); colours are counted from
+/// `reference` and scaled by sqrt(log2(e) / 2) / sigma_r, so that their squared differences are
+/// exponents too.
 struct KernelWork {
   /// A local face that has samples.
   struct Face {
@@ -31,21 +40,31 @@ struct KernelWork {
   int channels = 0, range_channels = 0;
   float distance_scale = 0;  ///< from squared distance to exponent, negative
   float colour_scale = 1;    ///< 1 for the Gaussian filter
-  float limit = 0;           ///< exponent at the radius
+  RangeTerm range_term = RangeTerm::none;
+  /// Per channel, in the colours' own unit: the middle of the targets', so that equal colours are
+  /// 0.
+  std::vector<float> reference;
+  float limit = 0;  ///< exponent at the radius
   /// Squared distance that the corners of two faces with a pair within the radius never exceed.
   float reach_squared = 0;
 
   std::vector<Face> faces;
-  /// Per sample kFixed values, then its scaled colour: b1, b2, variance + log2 area, log2 area,
-  /// limit + log2 area. Areas are relative to the patch's largest.
+  /// Per sample kFixed values, then its scaled colour y: b1, b2, variance + a, a, limit + a, where
+  /// a is log2 of its area relative to the patch's largest, less y^2 if the range term is
+  /// `product`.
   static constexpr std::size_t kFixed = 5;
   std::vector<float> records;
   std::size_t stride() const { return kFixed + std::size_t(channels); }
+  /// The records' b1, b2 and variance once more, in arrays of their own, so that a vector of
+  /// samples can be looked at; padded by kPadding.
+  static constexpr std::size_t kPadding = 16;
+  std::vector<float> b1, b2, variance;
 
   /// In an order in which neighbours in the list lie close to each other on the surface.
   std::vector<Target> targets;
-  std::vector<float> target_colours;  ///< scaled, `channels` per target
-  std::size_t kept = 0;               ///< number of targets that keep their value
+  /// Scaled, `channels` per target; twice that if the range term is `product`.
+  std::vector<float> target_colours;
+  std::size_t kept = 0;  ///< number of targets that keep their value
 };
 
 /// Gather samples of all faces of the patch and targets of its core. Values that targets keep are
@@ -54,6 +73,12 @@ void gather(const KernelInput& input, const KernelOptions& options, KernelWork& 
             std::vector<float>& out);
 
 /// A texel's values can be summed: finite, and small enough to be squared once scaled.
-bool is_usable(const float* colour, int channels, float scale);
+inline bool is_usable(const float* colour, int channels, float scale) {
+  // Scaled colours beyond this would overflow when squared and summed. Comparisons with NaN fail.
+  constexpr float kLargest = 1e15F;
+  bool usable = true;
+  for (int c = 0; c < channels; ++c) usable &= std::abs(colour[c] * scale) < kLargest;
+  return usable;
+}
 
 }  // namespace onmesh

@@ -21,113 +21,127 @@ using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 
-/// Exponent of lanes that must not count: far beyond any radius, but no infinity arithmetic.
-constexpr float kNever = -1e30F;
-/// The sum of weights that is nothing.
-constexpr float kNothing = 1e-30F;
+/// The sum of weights that is nothing: more than a million of the smallest that exp2() gives.
+constexpr float kNothing = 8e-25F;
 
 /// The exponents of a block's targets over one face are linear in the sample's barycentrics:
 /// corner 0's, and the differences to it at the others.
+template <class T>
 struct FaceExponents {
-  V corner0, to_corner1, to_corner2;
+  T corner0, to_corner1, to_corner2;
 };
 
-/// Samples near a block: where their records are, and the log2 of their spatial weights times area
-/// for all lanes. Sums are done over whole lists, so that short faces don't make short loops.
-struct NearList {
-  static constexpr std::size_t kSize = 64;
-  std::size_t size = 0;
-  const float* records[kSize];
-  HWY_ALIGN float exponents[kSize * hn::MaxLanes(D())];
-};
-
-/// Append the samples from `record` on that some lane has within the radius, until `end` or until
-/// the list is full. \return where it stopped
-HWY_INLINE const float* append(D d, const float* HWY_RESTRICT record, const float* end,
-                               std::size_t stride, const FaceExponents& e, NearList& list,
-                               std::uint64_t& pairs) {
+/// Numbers of the records from `begin` to `end` that some target may have within the radius.
+/// `most`: the largest exponents of any target at the face's corners; so a sum of them by
+/// barycentrics is the most that a sample can have. Lanes are samples here. \param hits room for
+/// end - begin and a vector more \return how many there are
+HWY_INLINE std::size_t find_hits(D d, const KernelWork& work, std::size_t begin, std::size_t end,
+                                 const FaceExponents<float>& most, float limit, Index face,
+                                 Index* hits, Index* faces) {
+  const hn::RebindToUnsigned<D> du;
   const std::size_t lanes = hn::Lanes(d);
-  const V never = hn::Set(d, kNever);
-  std::size_t size = list.size;
-  for (; record != end && size < NearList::kSize; record += stride) {
+  const V e0 = hn::Set(d, most.corner0), e1 = hn::Set(d, most.to_corner1);
+  const V e2 = hn::Set(d, most.to_corner2), least = hn::Set(d, limit);
+  auto number = hn::Iota(du, Index(begin));
+  const auto step = hn::Set(du, Index(lanes)), same = hn::Set(du, face);
+  std::size_t count = 0;
+  for (std::size_t k = begin; k < end; k += lanes) {
+    V x = hn::Add(e0, hn::LoadU(d, work.variance.data() + k));
+    x = hn::MulAdd(hn::LoadU(d, work.b1.data() + k), e1, x);
+    x = hn::MulAdd(hn::LoadU(d, work.b2.data() + k), e2, x);
+    const M hit = hn::And(hn::Ge(x, least), hn::FirstN(d, end - k));
+    hn::StoreU(hn::Compress(number, hn::RebindMask(du, hit)), du, hits + count);
+    hn::StoreU(same, du, faces + count);
+    count += hn::CountTrue(d, hit);
+    number = hn::Add(number, step);
+  }
+  return count;
+}
+
+/// The sums of a block: of weights, and of weighted values of up to 4 channels that all take part
+/// in the colour difference. With differences, the values are differences to the target's own
+/// colour.
+template <int kChannels, RangeTerm kRange>
+struct Sums {
+  V own[kChannels], sum[kChannels], weights;
+
+  HWY_INLINE void clear(D d, const float* colours) {
+    const std::size_t lanes = hn::Lanes(d);
+    weights = hn::Zero(d);
+    for (int c = 0; c < kChannels; ++c) {
+      own[c] = hn::Load(d, colours + std::size_t(c) * lanes);
+      sum[c] = hn::Zero(d);
+    }
+  }
+
+  /// Add one sample. \return number of lanes within the radius
+  HWY_INLINE std::size_t add(D d, const FaceExponents<V>& e, const float* HWY_RESTRICT record) {
     V x = hn::Add(e.corner0, hn::Set(d, record[2]));
     x = hn::MulAdd(hn::Set(d, record[0]), e.to_corner1, x);
     x = hn::MulAdd(hn::Set(d, record[1]), e.to_corner2, x);
     const M inside = hn::Ge(x, hn::Set(d, record[4]));
     // Rounding must not make d^2 negative.
     x = hn::Min(x, hn::Set(d, record[3]));
-    hn::Store(hn::IfThenElse(inside, x, never), d, list.exponents + size * lanes);
-    list.records[size] = record;
-    const std::size_t count = hn::CountTrue(d, inside);
-    pairs += count;
-    size += count != 0;  // no branch: it would be mispredicted too often
-  }
-  list.size = size;
-  return record;
-}
-
-/// Sums over a list, up to 4 channels that all take part in the colour difference. The bilateral
-/// filter sums differences to the target's own colour.
-template <int kChannels, bool kRange>
-HWY_INLINE void add(D d, const NearList& list, const float* own, float* sums) {
-  const std::size_t lanes = hn::Lanes(d);
-  V reference[kChannels], sum[kChannels], weights = hn::Zero(d);
-  for (int c = 0; c < kChannels; ++c) {
-    reference[c] = hn::Load(d, own + std::size_t(c) * lanes);
-    sum[c] = hn::Zero(d);
-  }
-  for (std::size_t k = 0; k < list.size; ++k) {
-    const float* HWY_RESTRICT const colour = list.records[k] + KernelWork::kFixed;
-    V x = hn::Load(d, list.exponents + k * lanes);
+    const float* const colour = record + KernelWork::kFixed;
     V value[kChannels];
     for (int c = 0; c < kChannels; ++c) {
       value[c] = hn::Set(d, colour[c]);
-      if constexpr (kRange) {
-        value[c] = hn::Sub(value[c], reference[c]);
+      if constexpr (kRange == RangeTerm::product) x = hn::MulAdd(value[c], own[c], x);
+      if constexpr (kRange == RangeTerm::difference) {
+        value[c] = hn::Sub(value[c], own[c]);
         x = hn::NegMulAdd(value[c], value[c], x);
       }
     }
-    const V w = exp2(d, x);
+    V w;
+    if constexpr (kRange == RangeTerm::product) {
+      w = hn::IfThenElseZero(inside, exp2_in_range(d, x));
+    } else {
+      w = hn::IfThenElseZero(inside, exp2(d, x));
+    }
     weights = hn::Add(weights, w);
     for (int c = 0; c < kChannels; ++c) sum[c] = hn::MulAdd(w, value[c], sum[c]);
+    return hn::CountTrue(d, inside);
   }
-  hn::Store(hn::Add(hn::Load(d, sums), weights), d, sums);
-  for (int c = 0; c < kChannels; ++c) {
-    float* const total = sums + std::size_t(c + 1) * lanes;
-    hn::Store(hn::Add(hn::Load(d, total), sum[c]), d, total);
-  }
-}
 
-/// The same for any number of channels: weights first, then one channel after the other.
-HWY_INLINE void add_general(D d, const KernelWork& work, NearList& list, const float* own,
-                            float* sums) {
-  const std::size_t lanes = hn::Lanes(d);
-  const auto channels = std::size_t(work.channels), range = std::size_t(work.range_channels);
-  V weights = hn::Zero(d);
-  for (std::size_t k = 0; k < list.size; ++k) {
-    const float* const colour = list.records[k] + KernelWork::kFixed;
-    V x = hn::Load(d, list.exponents + k * lanes);
+  HWY_INLINE void store(D d, float* sums) const {
+    const std::size_t lanes = hn::Lanes(d);
+    hn::Store(weights, d, sums);
+    for (int c = 0; c < kChannels; ++c) hn::Store(sum[c], d, sums + std::size_t(c + 1) * lanes);
+  }
+};
+
+/// The same for any number of channels of which any number takes part in the colour difference.
+template <RangeTerm kRange>
+struct Sums<0, kRange> {
+  const KernelWork* work = nullptr;
+  const float* own = nullptr;
+  float* sums = nullptr;
+
+  HWY_INLINE std::size_t add(D d, const FaceExponents<V>& e, const float* HWY_RESTRICT record) {
+    const std::size_t lanes = hn::Lanes(d);
+    const auto channels = std::size_t(work->channels), range = std::size_t(work->range_channels);
+    V x = hn::Add(e.corner0, hn::Set(d, record[2]));
+    x = hn::MulAdd(hn::Set(d, record[0]), e.to_corner1, x);
+    x = hn::MulAdd(hn::Set(d, record[1]), e.to_corner2, x);
+    const M inside = hn::Ge(x, hn::Set(d, record[4]));
+    x = hn::Min(x, hn::Set(d, record[3]));
+    const float* const colour = record + KernelWork::kFixed;
     for (std::size_t c = 0; c < range; ++c) {
       const V difference = hn::Sub(hn::Set(d, colour[c]), hn::Load(d, own + c * lanes));
       x = hn::NegMulAdd(difference, difference, x);
     }
-    const V w = exp2(d, x);
-    weights = hn::Add(weights, w);
-    hn::Store(w, d, list.exponents + k * lanes);
-  }
-  hn::Store(hn::Add(hn::Load(d, sums), weights), d, sums);
-  const V differences = hn::Set(d, range > 0 ? 1.0F : 0.0F);
-  for (std::size_t c = 0; c < channels; ++c) {
-    const V reference = hn::Mul(differences, hn::Load(d, own + c * lanes));
-    V sum = hn::Zero(d);
-    for (std::size_t k = 0; k < list.size; ++k) {
-      const V value = hn::Set(d, list.records[k][KernelWork::kFixed + c]);
-      sum = hn::MulAdd(hn::Load(d, list.exponents + k * lanes), hn::Sub(value, reference), sum);
+    const V w = hn::IfThenElseZero(inside, exp2(d, x));
+    hn::Store(hn::Add(hn::Load(d, sums), w), d, sums);
+    const V differences = hn::Set(d, range > 0 ? 1.0F : 0.0F);
+    for (std::size_t c = 0; c < channels; ++c) {
+      const V reference = hn::Mul(differences, hn::Load(d, own + c * lanes));
+      float* const sum = sums + (c + 1) * lanes;
+      const V value = hn::Sub(hn::Set(d, colour[c]), reference);
+      hn::Store(hn::MulAdd(w, value, hn::Load(d, sum)), d, sum);
     }
-    float* const total = sums + (c + 1) * lanes;
-    hn::Store(hn::Add(hn::Load(d, total), sum), d, total);
+    return hn::CountTrue(d, inside);
   }
-}
+};
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
