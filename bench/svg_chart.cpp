@@ -106,6 +106,14 @@ struct Axis {
   }
 };
 
+/// Of a point on the x axis, from 0 at the panel's left side to 1 at its right side.
+double x_position(const Chart& chart, std::size_t i) {
+  const double half = 0.5 / double(chart.x.size());  // what is left free at both sides
+  const double first = chart.x.front(), last = chart.x.back();
+  if (!chart.logarithmic_x || !(last > first)) return 2 * half * double(i) + half;
+  return half + (1 - 2 * half) * std::log(chart.x[i] / first) / std::log(last / first);
+}
+
 std::string draw_panel(const Chart& chart, const Axis& axis, const ChartPanel& panel, double left,
                        double top, bool labelled) {
   std::string out = text(left + kPanelWidth / 2, top - 8, "middle", 13, panel.title);
@@ -114,11 +122,15 @@ std::string draw_panel(const Chart& chart, const Axis& axis, const ChartPanel& p
     out += line(left, y, left + kPanelWidth, y, tick == axis.low ? 0.9 : 0.25);
     if (labelled) out += text(left - 6, y + 4, "end", 11, axis.label(tick));
   }
-  const auto x_of = [&](std::size_t i) {
-    return left + kPanelWidth * (double(i) + 0.5) / double(chart.x.size());
-  };
-  for (std::size_t i = 0; i < chart.x.size(); ++i)
-    out += text(x_of(i), top + kPanelHeight + 15, "middle", 11, format("%g", chart.x[i]));
+  const auto x_of = [&](std::size_t i) { return left + kPanelWidth * x_position(chart, i); };
+  double free_from = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < chart.x.size(); ++i) {
+    const std::string name = chart.x_names.empty() ? format("%g", chart.x[i]) : chart.x_names[i];
+    const double half = 3.2 * double(name.size());
+    if (x_of(i) - half < free_from) continue;  // would overlap the one before
+    free_from = x_of(i) + half + 3;
+    out += text(x_of(i), top + kPanelHeight + 15, "middle", 11, name);
+  }
   for (std::size_t s = 0; s < panel.values.size(); ++s) {
     std::string points, markers;
     for (std::size_t i = 0; i < chart.x.size(); ++i) {
