@@ -128,7 +128,7 @@ double ScalingCase::pairs() const {
   return double(size) * double(size) * std::numbers::pi * radius * radius;
 }
 
-int ScalingCase::repetitions() const { return pairs() > 3e10 ? 1 : 3; }
+int ScalingCase::repetitions() const { return pairs() > 3e10 || faces > 300'000 ? 1 : 3; }
 
 void run_scaling_case(benchmark::State& state, const ScalingCase& c) {
   static Latest<std::string, TriangleMesh> meshes;
