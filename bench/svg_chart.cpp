@@ -106,6 +106,14 @@ struct Axis {
   }
 };
 
+/// Of a point on the x axis, from 0 at the panel's left side to 1 at its right side.
+double x_position(const Chart& chart, std::size_t i) {
+  const double half = 0.5 / double(chart.x.size());  // what is left free at both sides
+  const double first = chart.x.front(), last = chart.x.back();
+  if (!chart.logarithmic_x || !(last > first)) return 2 * half * double(i) + half;
+  return half + (1 - 2 * half) * std::log(chart.x[i] / first) / std::log(last / first);
+}
+
 std::string draw_panel(const Chart& chart, const Axis& axis, const ChartPanel& panel, double left,
                        double top, bool labelled) {
   std::string out = text(left + kPanelWidth / 2, top - 8, "middle", 13, panel.title);
@@ -114,11 +122,15 @@ std::string draw_panel(const Chart& chart, const Axis& axis, const ChartPanel& p
     out += line(left, y, left + kPanelWidth, y, tick == axis.low ? 0.9 : 0.25);
     if (labelled) out += text(left - 6, y + 4, "end", 11, axis.label(tick));
   }
-  const auto x_of = [&](std::size_t i) {
-    return left + kPanelWidth * (double(i) + 0.5) / double(chart.x.size());
-  };
-  for (std::size_t i = 0; i < chart.x.size(); ++i)
-    out += text(x_of(i), top + kPanelHeight + 15, "middle", 11, format("%g", chart.x[i]));
+  const auto x_of = [&](std::size_t i) { return left + kPanelWidth * x_position(chart, i); };
+  double free_from = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < chart.x.size(); ++i) {
+    const std::string name = chart.x_names.empty() ? format("%g", chart.x[i]) : chart.x_names[i];
+    const double half = 3.2 * double(name.size());
+    if (x_of(i) - half < free_from) continue;  // would overlap the one before
+    free_from = x_of(i) + half + 3;
+    out += text(x_of(i), top + kPanelHeight + 15, "middle", 11, name);
+  }
   for (std::size_t s = 0; s < panel.values.size(); ++s) {
     std::string points, markers;
     for (std::size_t i = 0; i < chart.x.size(); ++i) {
@@ -139,25 +151,28 @@ std::string draw_panel(const Chart& chart, const Axis& axis, const ChartPanel& p
 std::string svg(const Chart& chart) {
   const std::size_t columns = std::clamp<std::size_t>(chart.panels.size(), 1, kColumns);
   const std::size_t rows = (chart.panels.size() + columns - 1) / columns;
-  const double width = kLeft + double(columns) * (kPanelWidth + kGapX) - kGapX + kRight;
+  std::string legend;
+  double legend_end = kLeft + 8;
+  for (const ChartSeries& series : chart.series) {
+    legend += marker(series, legend_end, 40) + text(legend_end + 9, 44, "start", 13, series.name);
+    legend_end += 38 + 7.5 * double(series.name.size());
+  }
+  const double panels_end = kLeft + double(columns) * (kPanelWidth + kGapX) - kGapX;
+  const double title_end = kLeft + 9 * double(chart.title.size());
+  const double width = std::max({panels_end, legend_end, title_end}) + kRight;
   const double height = kTop + double(rows) * (kPanelHeight + kGapY) - kGapY + kBottom;
   std::string out = format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f "
       "%.0f\" font-family=\"sans-serif\" fill=\"%s\">\n",
       width, height, width, height, kText);
-  out += text(kLeft, 20, "start", 15, chart.title, " font-weight=\"bold\"");
-  double x = kLeft + 8;
-  for (const ChartSeries& series : chart.series) {
-    out += marker(series, x, 40) + text(x + 9, 44, "start", 13, series.name);
-    x += 38 + 7.5 * double(series.name.size());
-  }
+  out += text(kLeft, 20, "start", 15, chart.title, " font-weight=\"bold\"") + legend;
   const Axis axis(chart);
   for (std::size_t p = 0; p < chart.panels.size(); ++p) {
     const double left = kLeft + double(p % columns) * (kPanelWidth + kGapX);
     const double top = kTop + double(p / columns) * (kPanelHeight + kGapY);
     out += draw_panel(chart, axis, chart.panels[p], left, top, p % columns == 0);
   }
-  out += text((kLeft + width - kRight) / 2, height - 10, "middle", 13, chart.x_label);
+  out += text((kLeft + panels_end) / 2, height - 10, "middle", 13, chart.x_label);
   const double middle = kTop + (height - kTop - kBottom) / 2;
   out += text(14, middle, "middle", 13, chart.y_label,
               format(" transform=\"rotate(-90 14 %.1f)\"", middle).c_str());

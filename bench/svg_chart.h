@@ -19,7 +19,9 @@ struct ChartSeries {
 
 struct Chart {
   std::string title, x_label, y_label;
-  std::vector<double> x;  ///< equally spaced on the axis, whatever their values
+  std::vector<double> x;             ///< equally spaced on the axis, whatever their values, ...
+  bool logarithmic_x = false;        ///< ... or by their logarithms; then all > 0 and ascending
+  std::vector<std::string> x_names;  ///< as many; empty = the numbers
   std::vector<ChartSeries> series;
   std::vector<ChartPanel> panels;
   bool logarithmic = false;  ///< the y axis; values <= 0 count as the lowest

@@ -219,6 +219,19 @@ TEST_CASE("auto takes the nodes for wide filters of large textures only", "[node
   CHECK(report.method == "direct");
 }
 
+TEST_CASE("by nodes the taps per texel are estimated as the direct sums have them",
+          "[nodes][filter]") {
+  const TriangleMesh mesh = make_sphere(3);
+  const Image texture = make_texture(512, 512, Pattern::checker, 0.2, 1);
+  FilterReport direct, nodes;
+  filter(mesh, texture, options_for(FilterKind::bilateral, 6, FilterMethod::direct), &direct);
+  filter(mesh, texture, options_for(FilterKind::bilateral, 6, FilterMethod::nodes), &nodes);
+  REQUIRE(nodes.by_nodes > 0.9 * double(nodes.texels));
+  CHECK(direct.taps == Approx(double(direct.pairs) / double(direct.texels)));
+  CHECK(nodes.pairs < direct.pairs / 4);
+  CHECK(nodes.taps == Approx(direct.taps).epsilon(0.03));
+}
+
 TEST_CASE("by nodes any number of threads gives the same bytes", "[nodes][filter]") {
   const Image texture = make_texture(256, 256, Pattern::checker, 0.2, 1);
   FilterOptions options = options_for(FilterKind::bilateral, 8, FilterMethod::nodes);

@@ -200,6 +200,7 @@ json report_json(const FilterReport& report) {
         {"patches", report.patches},
         {"table_rows", report.table_rows},
         {"pairs", report.pairs},
+        {"taps_per_texel", report.taps},
         {"overlapped_texels", report.overlapped},
         {"gutter_texels", report.gutter},
         {"texels_without_sample", report.without_sample}}},
@@ -241,7 +242,7 @@ void print_summary(const FilterReport& report, double seconds, std::ostream& out
       << " (" << report.backend_reason << ")\n";
   const std::uint64_t direct = report.texels - report.by_nodes;
   if (direct > 0) {
-    out << format_count(direct) << " texels by " << format_count(report.pairs / direct)
+    out << format_count(direct) << " texels by " << format_count(std::uint64_t(report.taps + 0.5))
         << " samples each on average\n";
   }
   if (report.by_nodes > 0) {

@@ -32,6 +32,7 @@ void NodeCheck::add(const NodeCheck& other) {
   squared_error += other.squared_error;
   largest_error = std::max(largest_error, other.largest_error);
   colours = std::max(colours, other.colours);
+  pairs += other.pairs;
 }
 
 CheckedNodes::CheckedNodes(const KernelOptions& options, double tolerance, bool always)
@@ -134,6 +135,8 @@ bool CheckedNodes::run(const KernelInput& input, Kernel& kernel, std::vector<flo
     }
   }
   check.targets = support_.size();
+  check.pairs = double(sums.pairs) / double(std::max<std::size_t>(picked_.size(), 1)) *
+                double(support_.size());
   counts.pairs += sums.pairs;
   settle_uncertain(input, kernel, values_, counts, check);
   out.swap(values_);

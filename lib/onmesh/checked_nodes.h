@@ -15,6 +15,8 @@ struct NodeCheck {
   double squared_error = 0;   ///< their sum
   double largest_error = 0;   ///< of all values compared, also of the most uncertain targets
   int colours = 0;            ///< the largest palette
+  /// Pairs within the radius of all targets, estimated from those of the targets picked at random.
+  double pairs = 0;
 
   void add(const NodeCheck& other);
 };

@@ -312,6 +312,7 @@ Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& o
     results.merge_shared();
     report.patches = counts.patches;
     report.pairs = counts.pairs;
+    report.taps = counts.pairs_within / double(std::max<std::uint64_t>(report.texels, 1));
     report.without_sample = counts.without_sample;
     report.table_rows = counts.table_rows;
     note_method(counts.nodes, report);

@@ -70,7 +70,10 @@ struct FilterReport {
   /// Mesh units; sample_spacing in Poisson mode only.
   double sigma_spatial = 0, radius = 0, node_spacing = 0, sample_spacing = 0, texel_size = 0;
   std::uint64_t texels = 0, samples = 0, nodes = 0, node_faces = 0, patches = 0;
-  std::uint64_t pairs = 0;           ///< (target, sample) pairs summed one by one
+  std::uint64_t pairs = 0;  ///< (target, sample) pairs summed one by one
+  /// Samples within the radius of a target, mean; estimated from some targets where the nodes are
+  /// used.
+  double taps = 0;
   std::uint64_t table_rows = 0;      ///< nodes that distances were computed from, all patches
   std::uint64_t bridges = 0;         ///< over gaps between components
   std::uint64_t overlapped = 0;      ///< texels claimed more than once

@@ -71,8 +71,10 @@ class PatchFilter {
     NodeCheck check;
     if (by_nodes_ && nodes_.run(input, kernel_, values_, kernel, check)) {
       counts.nodes.add(check);
+      counts.pairs_within += check.pairs;
     } else {
       kernel = kernel_.run(input, values_);
+      counts.pairs_within += double(kernel.pairs);
     }
     const float* values = values_.data();
     for (Index f = 0; f < patch.core_faces; ++f) {
@@ -122,6 +124,7 @@ class PatchFilter {
 void PatchCounts::add(const PatchCounts& other) {
   patches += other.patches;
   pairs += other.pairs;
+  pairs_within += other.pairs_within;
   without_sample += other.without_sample;
   table_rows += other.table_rows;
   table_cpu_seconds += other.table_cpu_seconds;

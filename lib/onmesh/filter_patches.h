@@ -24,6 +24,8 @@ struct PatchWork {
 
 struct PatchCounts {
   std::uint64_t patches = 0, pairs = 0, without_sample = 0, table_rows = 0;
+  /// Pairs within the radius, whether they were summed or not; estimated where the nodes were used.
+  double pairs_within = 0;
   double table_cpu_seconds = 0, kernel_cpu_seconds = 0;
   NodeCheck nodes;
 
