@@ -1,8 +1,10 @@
 #include "onmesh/filter.h"
 
 #include <sys/resource.h>
+#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <tbb/parallel_reduce.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -167,20 +169,39 @@ class Results {
  private:
   /// Smallest and largest value of the samples, and of the targets, which may keep theirs.
   void find_range(const Samples& sources, const Samples& targets) {
-    lowest_.assign(channels_.size(), std::numeric_limits<float>::infinity());
-    highest_.assign(channels_.size(), -std::numeric_limits<float>::infinity());
-    for (const Samples* samples : {&sources, &targets}) {
-      for (const Sample& s : samples->samples) {
-        const float* const own = texture_.texel(s.texel);
-        for (std::size_t c = 0; c < channels_.size(); ++c) {
-          const float value = own[channels_[c]];
-          if (!std::isfinite(value)) continue;
-          lowest_[c] = std::min(lowest_[c], value);
-          highest_[c] = std::max(highest_[c], value);
-        }
+    struct Range {
+      std::vector<float> lowest, highest;
+    };
+    const Range none{std::vector<float>(channels_.size(), std::numeric_limits<float>::infinity()),
+                     std::vector<float>(channels_.size(), -std::numeric_limits<float>::infinity())};
+    Range all = none;
+    const auto join = [](Range a, const Range& b) {
+      for (std::size_t c = 0; c < a.lowest.size(); ++c) {
+        a.lowest[c] = std::min(a.lowest[c], b.lowest[c]);
+        a.highest[c] = std::max(a.highest[c], b.highest[c]);
       }
+      return a;
+    };
+    for (const Samples* samples : {&sources, &targets}) {
+      const auto widen = [&](const tbb::blocked_range<std::size_t>& part, Range range) {
+        for (std::size_t k = part.begin(); k < part.end(); ++k) {
+          const float* const own = texture_.texel(samples->samples[k].texel);
+          for (std::size_t c = 0; c < channels_.size(); ++c) {
+            const float value = own[channels_[c]];
+            if (!std::isfinite(value)) continue;
+            range.lowest[c] = std::min(range.lowest[c], value);
+            range.highest[c] = std::max(range.highest[c], value);
+          }
+        }
+        return range;
+      };
+      all = join(all, tbb::parallel_reduce(
+                          tbb::blocked_range<std::size_t>(0, samples->samples.size(), 65536), none,
+                          widen, join));
       if (&sources == &targets) break;
     }
+    lowest_ = std::move(all.lowest);
+    highest_ = std::move(all.highest);
   }
 
   /// Rounding must not leave the samples' range; values that are not finite were kept as they are.

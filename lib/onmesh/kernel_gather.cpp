@@ -37,9 +37,12 @@ std::vector<unsigned char> find_faces_near(const KernelInput& input, const Kerne
   return is_near;
 }
 
-float largest_area(const Patch& patch, const Samples& sources) {
+float largest_area(const Patch& patch, const Samples& sources,
+                   const std::vector<unsigned char>& is_needed) {
   float largest = 0;
-  for (const Index f : patch.faces) {
+  for (std::size_t local = 0; local < patch.faces.size(); ++local) {
+    if (!is_needed[local]) continue;
+    const Index f = patch.faces[local];
     for (Index k = sources.face_offsets[f]; k < sources.face_offsets[f + 1]; ++k) {
       largest = std::max(largest, sources.samples[k].area);
     }
@@ -74,7 +77,7 @@ Extremes gather_samples(const KernelInput& input, double variance_scale,
     if (array->size() < count + KernelWork::kPadding) array->resize(count + KernelWork::kPadding);
   }
 
-  const float inverse_area = 1 / largest_area(patch, sources);
+  const float inverse_area = 1 / largest_area(patch, sources, is_needed);
   float* record = work.records.data();
   std::size_t used = 0;
   float last_area = -1, log_area = 0;  // most neighbours stand for the same area

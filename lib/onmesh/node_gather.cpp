@@ -39,72 +39,135 @@ std::array<Index, 3> quarter_corners(const std::array<Index, 3>& corners,
   }
 }
 
-/// Sorts the samples of one face into runs.
+/// Sorts the samples of one face into runs. kChannels: how many there are, or 0 for any number.
+template <int kChannels>
 class FaceSorter {
  public:
   FaceSorter(const Patch& patch, const Subnodes& subnodes, const Colours& colours,
              const NodeWork& work)
-      : patch_(patch), subnodes_(subnodes), colours_(colours), work_(work) {}
+      : patch_(patch),
+        subnodes_(subnodes),
+        colours_(colours),
+        work_(work),
+        channels_(kChannels > 0 ? kChannels : work.channels) {}
 
   /// \param area_scale record barycentrics times this times the sample's area; 0: as they are
+  /// \param is_wanted called with a run's corners: whether its records are
   /// \param placed called with the number, from `first`, of each sample in the records' order
-  template <typename Placed>
-  void append(const Samples& samples, Index local_face, float area_scale,
+  template <typename IsWanted, typename Placed>
+  void append(const Samples& samples, Index local_face, float area_scale, const IsWanted& is_wanted,
               NodeWork::Records& records, const Placed& placed) {
     const Index f = patch_.faces[local_face];
+    const Index begin = samples.face_offsets[f], end = samples.face_offsets[f + 1];
+    if (begin == end) return;
     const bool is_split = subnodes_.is_split[local_face] != 0;
-    for (auto& list : items_) list.clear();
-    for (Index k = samples.face_offsets[f]; k < samples.face_offsets[f + 1]; ++k) {
+    std::array<NodeWork::Run, 4> runs;
+    std::array<bool, 4> wanted{};
+    bool any = false;
+    for (int quarter = 0; quarter < (is_split ? 4 : 1); ++quarter) {
+      runs[quarter].corners = is_split ? quarter_corners(patch_.corners[local_face],
+                                                         subnodes_.middle[local_face], quarter)
+                                       : patch_.corners[local_face];
+      wanted[quarter] = is_wanted(runs[quarter].corners);
+      any |= wanted[quarter];
+    }
+    if (!any) return;
+    // Where each sample goes, then the records.
+    if (places_.size() < end - begin) places_.resize(end - begin);
+    std::array<Index, 5> count{};
+    for (Index k = begin; k < end; ++k) {
+      const Sample& s = samples.samples[k];
+      Place& place = places_[k - begin];
+      place.barycentric = {1 - s.b1 - s.b2, s.b1, s.b2};
+      place.quarter = is_split ? quarter_of(place.barycentric) : 0;
+      const float* colour = colours_.values + std::size_t(s.texel) * std::size_t(colours_.stride);
+      if (!wanted[place.quarter] || !is_usable(colour, channels_, work_.colour_scale) ||
+          (area_scale > 0 && !(s.area * area_scale > 0))) {
+        place.quarter = 4;
+      }
+      ++count[place.quarter];
+    }
+    std::array<std::size_t, 4> next{};
+    const std::size_t first = records.count;
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      next[quarter] = runs[quarter].begin = records.count;
+      runs[quarter].end = records.count += count[quarter];
+      if (count[quarter] > 0) records.runs.push_back(runs[quarter]);
+    }
+    const std::size_t stride = NodeWork::kBarycentrics + 1 + std::size_t(channels_);
+    const std::size_t needed = records.count * stride + NodeWork::kPadding;
+    if (records.values.size() < needed) records.values.resize(2 * needed);
+    order_.resize(records.count - first);
+    for (Index k = begin; k < end; ++k) {
+      const Place& place = places_[k - begin];
+      if (place.quarter == 4) continue;
       const Sample& s = samples.samples[k];
       const float* colour = colours_.values + std::size_t(s.texel) * std::size_t(colours_.stride);
-      if (!is_usable(colour, work_.channels, work_.colour_scale)) continue;
-      if (area_scale > 0 && !(s.area * area_scale > 0)) continue;
-      Item item{k, {1 - s.b1 - s.b2, s.b1, s.b2}};
-      const int quarter = is_split ? quarter_of(item.barycentric) : 0;
-      items_[quarter].push_back(item);
+      const std::size_t at = next[place.quarter]++;
+      order_[at - first] = k;
+      float* const record = records.values.data() + at * stride;
+      const float scale = area_scale > 0 ? s.area * area_scale : 1;
+      for (int i = 0; i < 3; ++i) record[i] = place.barycentric[std::size_t(i)] * scale;
+      record[3] = 1;
+      for (int c = 0; c < channels_; ++c)
+        record[4 + c] = (colour[c] - work_.reference[std::size_t(c)]) * work_.colour_scale;
     }
-    for (int quarter = 0; quarter < 4; ++quarter) {
-      if (items_[quarter].empty()) continue;
-      NodeWork::Run run;
-      run.corners = is_split ? quarter_corners(patch_.corners[local_face],
-                                               subnodes_.middle[local_face], quarter)
-                             : patch_.corners[local_face];
-      run.begin = records.count;
-      for (const Item& item : items_[quarter]) {
-        const Sample& s = samples.samples[item.sample];
-        const float scale = area_scale > 0 ? s.area * area_scale : 1;
-        float* const record = grow(records);
-        for (int k = 0; k < 3; ++k) record[k] = item.barycentric[k] * scale;
-        record[3] = 1;
-        const float* colour = colours_.values + std::size_t(s.texel) * std::size_t(colours_.stride);
-        for (std::size_t c = 0; c < std::size_t(work_.channels); ++c)
-          record[4 + c] = (colour[c] - work_.reference[c]) * work_.colour_scale;
-        placed(item.sample);
-      }
-      run.end = records.count;
-      records.runs.push_back(run);
-    }
+    for (const Index k : order_) placed(k);
   }
 
  private:
-  struct Item {
-    Index sample;
+  struct Place {
     std::array<float, 3> barycentric;
+    int quarter;  ///< 4: it counts for nothing
   };
-
-  float* grow(NodeWork::Records& records) const {
-    const std::size_t at = records.count++ * work_.stride();
-    const std::size_t needed = at + work_.stride() + NodeWork::kPadding;
-    if (records.values.size() < needed) records.values.resize(2 * needed);
-    return records.values.data() + at;
-  }
 
   const Patch& patch_;
   const Subnodes& subnodes_;
   const Colours& colours_;
   const NodeWork& work_;
-  std::array<std::vector<Item>, 4> items_;
+  const int channels_;
+  std::vector<Place> places_;
+  std::vector<Index> order_;
 };
+
+/// Which subnodes the blur reads, directly or through the ends of an edge too short to split.
+std::vector<unsigned char> find_used(const Subnodes& subnodes, const BlurWeights& blur) {
+  std::vector<unsigned char> used(subnodes.size(), 0);
+  for (const Index i : blur.subnodes) used[i] = 1;
+  for (Index i = 0; i < subnodes.size(); ++i) {
+    if (subnodes.is_real[i]) continue;
+    used[i] = used[subnodes.ends[i][0]] | used[subnodes.ends[i][1]];
+  }
+  return used;
+}
+
+template <int kChannels>
+void sort_samples(const KernelInput& input, const Subnodes& subnodes, const BlurWeights& blur,
+                  float largest_area, NodeWork& work) {
+  const Patch& patch = *input.patch;
+  FaceSorter<kChannels> sorter(patch, subnodes, input.colours, work);
+  if (largest_area > 0) {
+    const std::vector<unsigned char> used = find_used(subnodes, blur);
+    const auto is_wanted = [&](const std::array<Index, 3>& corners) {
+      return (used[corners[0]] | used[corners[1]] | used[corners[2]]) != 0;
+    };
+    for (Index f = 0; f < patch.faces.size(); ++f)
+      sorter.append(*input.sources, f, 1 / largest_area, is_wanted, work.samples, [](Index) {});
+  }
+  const Samples& targets = *input.targets;
+  Index slots = 0;
+  for (Index f = 0; f < patch.core_faces; ++f) {
+    const Index begin = targets.face_offsets[patch.faces[f]];
+    sorter.append(
+        targets, f, 0, [](const std::array<Index, 3>&) { return true; }, work.targets,
+        [&](Index k) {
+          work.target_slots.push_back(slots + k - begin);
+          work.target_areas.push_back(largest_area > 0 ? targets.samples[k].area / largest_area
+                                                       : 0);
+        });
+    slots += targets.face_offsets[patch.faces[f] + 1] - begin;
+  }
+}
 
 /// The patch's largest sample area, and the mean of its usable colours.
 float survey(const KernelInput& input, NodeWork& work) {
@@ -133,8 +196,8 @@ float survey(const KernelInput& input, NodeWork& work) {
 
 }  // namespace
 
-void gather(const KernelInput& input, const Subnodes& subnodes, const KernelOptions& options,
-            NodeWork& work, std::vector<float>& out) {
+void gather(const KernelInput& input, const Subnodes& subnodes, const BlurWeights& blur,
+            const KernelOptions& options, NodeWork& work, std::vector<float>& out) {
   const Patch& patch = *input.patch;
   const Colours& colours = input.colours;
   work.channels = colours.channels;
@@ -152,29 +215,30 @@ void gather(const KernelInput& input, const Subnodes& subnodes, const KernelOpti
   work.target_slots.clear();
   work.target_areas.clear();
 
-  FaceSorter sorter(patch, subnodes, colours, work);
-  if (largest > 0) {
-    for (Index f = 0; f < patch.faces.size(); ++f)
-      sorter.append(*input.sources, f, 1 / largest, work.samples, [](Index) {});
-  }
   const Samples& targets = *input.targets;
   work.slots = 0;
+  for (Index f = 0; f < patch.core_faces; ++f)
+    work.slots += targets.face_offsets[patch.faces[f] + 1] - targets.face_offsets[patch.faces[f]];
+  out.resize(work.slots * std::size_t(work.channels));
+  float* kept = out.data();
   for (Index f = 0; f < patch.core_faces; ++f) {
     const Index begin = targets.face_offsets[patch.faces[f]];
     const Index end = targets.face_offsets[patch.faces[f] + 1];
-    out.resize((work.slots + end - begin) * std::size_t(work.channels));
-    for (Index k = begin; k < end; ++k) {
-      const float* own =
-          colours.values + std::size_t(targets.samples[k].texel) * std::size_t(colours.stride);
+    for (Index k = begin; k < end; ++k, kept += work.channels) {
       std::copy_n(
-          own, work.channels,
-          out.begin() + std::ptrdiff_t((work.slots + k - begin) * std::size_t(work.channels)));
+          colours.values + std::size_t(targets.samples[k].texel) * std::size_t(colours.stride),
+          work.channels, kept);
     }
-    sorter.append(targets, f, 0, work.targets, [&](Index k) {
-      work.target_slots.push_back(Index(work.slots + k - begin));
-      work.target_areas.push_back(largest > 0 ? targets.samples[k].area / largest : 0);
-    });
-    work.slots += end - begin;
+  }
+  switch (work.channels) {
+    case 1:
+      return sort_samples<1>(input, subnodes, blur, largest, work);
+    case 3:
+      return sort_samples<3>(input, subnodes, blur, largest, work);
+    case 4:
+      return sort_samples<4>(input, subnodes, blur, largest, work);
+    default:
+      return sort_samples<0>(input, subnodes, blur, largest, work);
   }
 }
 

@@ -52,9 +52,9 @@ struct NodeKernelState {
   std::vector<float> likeness;  ///< of a run's records to the palette's colours
 };
 
-/// Gather samples of all faces of the patch and targets of its core. Values that targets keep are
-/// written to `out`, which is resized.
-void gather(const KernelInput& input, const Subnodes& subnodes, const KernelOptions& options,
-            NodeWork& work, std::vector<float>& out);
+/// Gather the samples that the blur needs and the targets of the patch's core. Values that targets
+/// keep are written to `out`, which is resized.
+void gather(const KernelInput& input, const Subnodes& subnodes, const BlurWeights& blur,
+            const KernelOptions& options, NodeWork& work, std::vector<float>& out);
 
 }  // namespace onmesh

@@ -260,7 +260,7 @@ bool NodeKernel::load(const KernelInput& input) {
   const std::size_t entries = s.blur.subnodes.size();
   s.blur.exponents.resize((entries + Palette::kLanes - 1) / Palette::kLanes * Palette::kLanes);
   HWY_DYNAMIC_DISPATCH(raise)(s.blur.exponents);
-  gather(input, s.subnodes, options_, s.work, s.kept);
+  gather(input, s.subnodes, s.blur, options_, s.work, s.kept);
   return true;
 }
 
