@@ -109,9 +109,9 @@ Samples draw_poisson(const FilterSetup& setup, const NodeSurface& surface, std::
 class Results {
  public:
   Results(const Image& texture, const TexelMap& map, const Samples& sources, const Samples& targets,
-          Image& image)
+          bool poisson, Image& image)
       : texture_(texture), targets_(targets), channels_(texture.range_channels()), image_(image) {
-    find_range(sources, targets);
+    find_range(map, sources, poisson);
     std::vector<bool> overlapped(map.coverage.size(), false);
     const std::vector<Index> texels = map.overlapped();
     if (texels.empty() || targets.samples.size() < map.claims.size()) return;
@@ -167,14 +167,24 @@ class Results {
   }
 
  private:
-  /// Smallest and largest value of the samples, and of the targets, which may keep theirs.
-  void find_range(const Samples& sources, const Samples& targets) {
+  /// Smallest and largest value of the samples, and of the targets, which may keep theirs: of all
+  /// covered texels, which are looked at in the texture's order, and of Poisson samples, which may
+  /// lie in others.
+  void find_range(const TexelMap& map, const Samples& sources, bool poisson) {
     struct Range {
       std::vector<float> lowest, highest;
     };
     const Range none{std::vector<float>(channels_.size(), std::numeric_limits<float>::infinity()),
                      std::vector<float>(channels_.size(), -std::numeric_limits<float>::infinity())};
-    Range all = none;
+    const auto widen = [&](Range& range, Index texel) {
+      const float* const own = texture_.texel(texel);
+      for (std::size_t c = 0; c < channels_.size(); ++c) {
+        const float value = own[channels_[c]];
+        if (!std::isfinite(value)) continue;
+        range.lowest[c] = std::min(range.lowest[c], value);
+        range.highest[c] = std::max(range.highest[c], value);
+      }
+    };
     const auto join = [](Range a, const Range& b) {
       for (std::size_t c = 0; c < a.lowest.size(); ++c) {
         a.lowest[c] = std::min(a.lowest[c], b.lowest[c]);
@@ -182,23 +192,22 @@ class Results {
       }
       return a;
     };
-    for (const Samples* samples : {&sources, &targets}) {
-      const auto widen = [&](const tbb::blocked_range<std::size_t>& part, Range range) {
-        for (std::size_t k = part.begin(); k < part.end(); ++k) {
-          const float* const own = texture_.texel(samples->samples[k].texel);
-          for (std::size_t c = 0; c < channels_.size(); ++c) {
-            const float value = own[channels_[c]];
-            if (!std::isfinite(value)) continue;
-            range.lowest[c] = std::min(range.lowest[c], value);
-            range.highest[c] = std::max(range.highest[c], value);
-          }
-        }
-        return range;
-      };
-      all = join(all, tbb::parallel_reduce(
-                          tbb::blocked_range<std::size_t>(0, samples->samples.size(), 65536), none,
-                          widen, join));
-      if (&sources == &targets) break;
+    const auto widest = [&](std::size_t count, const auto& add) {
+      return tbb::parallel_reduce(
+          tbb::blocked_range<std::size_t>(0, count, 65536), none,
+          [&](const tbb::blocked_range<std::size_t>& part, Range range) {
+            for (std::size_t k = part.begin(); k < part.end(); ++k) add(range, k);
+            return range;
+          },
+          join);
+    };
+    Range all = widest(map.coverage.size(), [&](Range& range, std::size_t t) {
+      if (map.coverage[t] == Coverage::covered) widen(range, Index(t));
+    });
+    if (poisson) {
+      all = join(all, widest(sources.samples.size(), [&](Range& range, std::size_t k) {
+                   widen(range, sources.samples[k].texel);
+                 }));
     }
     lowest_ = std::move(all.lowest);
     highest_ = std::move(all.highest);
@@ -324,7 +333,7 @@ Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& o
   work.kernel = {plan.sigma_spatial, plan.radius, bilateral ? options.sigma_range : 0};
   if (options.distance == DistanceMethod::exact) refuse_long_runs(work);
   {
-    Results results(texture, setup.map, sources, targets, image);
+    Results results(texture, setup.map, sources, targets, poisson, image);
     work.method = options.method;
     work.tolerance = options.tolerance * results.range();
     const PatchCounts counts = filter_patches(

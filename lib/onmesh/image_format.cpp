@@ -64,6 +64,9 @@ bool is_mixed(const std::vector<SampleType>& types) {
   return std::any_of(types.begin(), types.end(), [&](SampleType t) { return t != types[0]; });
 }
 
+/// How hard zlib tries, of 9: a third of the time of the usual 6 for files 5 % larger at most.
+constexpr int kZlibLevel = 3;
+
 /// Keep a compression that loses nothing.
 void choose_compression(OIIO::ImageSpec& spec, const ImageFormat& format,
                         const std::vector<SampleType>& types) {
@@ -76,6 +79,9 @@ void choose_compression(OIIO::ImageSpec& spec, const ImageFormat& format,
     const bool lossless = compression == "none" || compression == "lzw" || compression == "zip" ||
                           compression == "packbits";
     spec.attribute("compression", lossless ? compression : "zip");
+    spec.attribute("tiff:zipquality", kZlibLevel);
+  } else if (format.name == "png") {
+    spec.attribute("png:compressionLevel", kZlibLevel);
   } else if (format.name == "openexr") {
     const bool lossless = compression == "none" || compression == "rle" || compression == "zip" ||
                           compression == "zips" || compression == "piz" ||

@@ -23,7 +23,8 @@ struct Patch {
 /// Group the faces that carry targets (weights > 0) into compact groups of about `target_weight`
 /// (at most 1.5 times that unless a face alone weighs more), each connected over shared nodes;
 /// faces of weight 0 are in no group. Deterministic; faces ascend within a group; O(faces log
-/// groups). \pre mesh.build_incidence() was called, one weight per face, target_weight > 0
+/// groups), in partition.cpp. \pre mesh.build_incidence() was called, one weight per face,
+/// target_weight > 0
 std::vector<std::vector<Index>> partition_faces(const NodeMesh& mesh,
                                                 const std::vector<double>& weights,
                                                 double target_weight);
