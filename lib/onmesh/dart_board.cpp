@@ -20,20 +20,30 @@ class Settlement {
  public:
   Settlement(const std::vector<DartBlock>& blocks, const Vec3& origin, const SpacingField& field) {
     for (const DartBlock& block : blocks)
-      for (const Dart& dart : block.darts) darts_.push_back({&dart, block.reach.data()});
+      for (const Dart& dart : block.darts) darts_.push_back({&dart, block.reach.data(), 0, 0});
     grid_ = PointGrid(origin, field.least(), field.largest(), factor(field), darts_.size());
     for (Index i = 0; i < Index(darts_.size()); ++i)
       grid_.insert(i, dart(i).point.face, dart(i).position, dart(i).spacing);
     states_.assign(darts_.size(), kOpen);
+    rivals_.resize((darts_.size() + kBlock - 1) / kBlock);
   }
 
-  // A dart is in when all before it that it conflicts with are out, and out when one is in. Nothing
-  // is decided before that is known, so it does not matter which thread is first.
+  // A dart is in when all its rivals (darts before it that it conflicts with) are out, and out when
+  // one is in. Nothing is decided before that is known, so it does not matter which thread is
+  // first.
   void run() {
+    oneapi::tbb::parallel_for(std::size_t(0), rivals_.size(), [&](std::size_t block) {
+      const std::size_t last = std::min(darts_.size(), (block + 1) * kBlock);
+      for (std::size_t i = block * kBlock; i < last; ++i) {
+        darts_[i].first_rival = Index(rivals_[block].size());
+        find_rivals(Index(i), rivals_[block]);
+        darts_[i].rivals = Index(rivals_[block].size()) - darts_[i].first_rival;
+      }
+    });
     std::vector<Index> open(darts_.size());
     for (Index i = 0; i < Index(open.size()); ++i) open[i] = i;
     while (!open.empty()) {
-      oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, open.size(), 256),
+      oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, open.size(), 1024),
                                 [&](const auto& range) {
                                   for (auto i = range.begin(); i < range.end(); ++i)
                                     decide(open[i]);
@@ -53,7 +63,9 @@ class Settlement {
   struct Entry {
     const Dart* dart;
     const Index* reach;  // of its block
+    Index first_rival = 0, rivals = 0;
   };
+  static constexpr std::size_t kBlock = 256;
   static constexpr std::uint8_t kOpen = 0, kIn = 1, kOut = 2;
 
   const Dart& dart(Index i) const { return *darts_[i].dart; }
@@ -61,32 +73,42 @@ class Settlement {
     const Index* const first = darts_[i].reach + dart(i).first_reach;
     return std::binary_search(first, first + dart(i).reach, face);
   }
-  void decide(Index i) {
+  void find_rivals(Index i, std::vector<Index>& rivals) const {
     const Dart& own = dart(i);
-    bool waits = false;
-    const bool out =
-        grid_.visit(own.position, own.spacing, own.spacing, own.spacing, [&](const auto& entry) {
-          const double limit = std::min(own.spacing, entry.spacing);
-          if (!((entry.position - own.position).squaredNorm() < limit * limit)) return false;
-          const Index j = entry.number;
-          const Dart& other = dart(j);
-          if (own.rank != other.rank ? own.rank < other.rank : i <= j) return false;
-          const std::uint8_t state =
-              std::atomic_ref<std::uint8_t>(states_[j]).load(std::memory_order_relaxed);
-          if (state == kOut) return false;
-          if (own.point.face != other.point.face && !reaches(i, other.point.face) &&
-              !reaches(j, own.point.face))
-            return false;
-          waits = true;
-          return state == kIn;
-        });
-    if (waits && !out) return;
-    std::atomic_ref<std::uint8_t>(states_[i]).store(out ? kOut : kIn, std::memory_order_relaxed);
+    grid_.visit(own.position, own.spacing, own.spacing, own.spacing, [&](const auto& entry) {
+      const double limit = std::min(own.spacing, entry.spacing);
+      if (!((entry.position - own.position).squaredNorm() < limit * limit)) return false;
+      const Index j = entry.number;
+      const Dart& other = dart(j);
+      if (own.rank != other.rank ? own.rank < other.rank : i <= j) return false;
+      if (own.point.face == other.point.face || reaches(i, other.point.face) ||
+          reaches(j, own.point.face))
+        rivals.push_back(j);
+      return false;
+    });
+  }
+  void decide(Index i) {
+    const Index* const rivals = rivals_[i / kBlock].data() + darts_[i].first_rival;
+    std::uint8_t state = kIn;
+    for (Index k = 0; k < darts_[i].rivals && state != kOut; ++k) {
+      switch (std::atomic_ref<std::uint8_t>(states_[rivals[k]]).load(std::memory_order_relaxed)) {
+        case kIn:
+          state = kOut;
+          break;
+        case kOpen:
+          state = kOpen;
+          break;
+        default:
+          break;
+      }
+    }
+    std::atomic_ref<std::uint8_t>(states_[i]).store(state, std::memory_order_relaxed);
   }
 
   std::vector<Entry> darts_;
   PointGrid grid_;
   std::vector<std::uint8_t> states_;
+  std::vector<std::vector<Index>> rivals_;  // by blocks of darts
 };
 
 }  // namespace

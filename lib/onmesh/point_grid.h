@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "onmesh/types.h"
@@ -34,7 +35,9 @@ class PointGrid {
         least_(least),
         largest_(largest),
         factor_(factor),
+        levels_(exponent(largest / least) + 1),
         heads_(std::bit_ceil(std::max<std::size_t>(expected_points, 16)), kNone) {
+    for (int l = 0; l < levels_; ++l) scales_.push_back(std::ldexp(1 / (kCellSize * least_), -l));
     entries_.reserve(expected_points);
   }
 
@@ -50,6 +53,7 @@ class PointGrid {
 
   /// Call visit(entry) for all points within the radius (and some more) of a place whose spacing is
   /// in [low, high], until it returns true. Fastest when the radius is one or two spacings.
+  /// \pre radius <= 6 low
   /// \return whether it did
   template <typename Visit>
   bool visit(const Vec3& centre, double low, double high, double radius, const Visit& visit) const {
@@ -70,14 +74,19 @@ class PointGrid {
   using Cell = std::array<std::int64_t, 3>;
   static constexpr double kCellSize = 3.2;  // in spacings of the level's finest
 
+  /// Number of times that the spacing halves down to the least, 0 for the finest grid.
   int level(double spacing) const {
-    return std::ilogb(std::clamp(spacing, least_, largest_) / least_);
+    if (levels_ == 1) return 0;
+    return exponent(std::clamp(spacing, least_, largest_) / least_);
+  }
+  static int exponent(double ratio) {
+    return int(std::bit_cast<std::uint64_t>(ratio) >> 52) - 1023;
   }
   Cell cell(const Vec3& p, int level) const {
-    const double size = std::ldexp(kCellSize * least_, level);
+    const double scale = scales_[std::size_t(level)];
     Cell c;
-    for (int k = 0; k < 3; ++k)
-      c[std::size_t(k)] = std::int64_t(std::floor((p[k] - origin_[k]) / size));
+    // What is not below -2 is truncated like the rest.
+    for (int k = 0; k < 3; ++k) c[std::size_t(k)] = std::int64_t((p[k] - origin_[k]) * scale + 2);
     return c;
   }
   // Cells of a 4 x 4 x 4 block are neighbours in memory.
@@ -91,6 +100,8 @@ class PointGrid {
 
   Vec3 origin_ = Vec3::Zero();
   double least_ = 1, largest_ = 1, factor_ = 1;
+  int levels_ = 0;
+  std::vector<double> scales_;  // cells per unit of length, by level
   std::vector<Index> heads_;    // per bucket, the last entry
   std::vector<Entry> entries_;  // each with the one inserted before it in its bucket
 };

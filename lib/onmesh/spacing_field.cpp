@@ -168,14 +168,17 @@ bool CellSpacing::bound(const SpacingField& field, const FaceFrame& frame, const
   centre = low = high = most;
   if (count == 0) return false;
   const Vec3 position = frame.position(cell.centre());
-  for (std::size_t i = 0; i < count; ++i)
-    centre = std::min(centre, field.limit(sources[i], position));
+  limits_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    limits_[i] = field.limit(sources[i], position);
+    centre = std::min(centre, limits_[i]);
+  }
   const double change = field.slope() * cell.radius();
   high = std::min(most, centre + change);
   low = std::max(field.least(), centre - change);
   bool any = false;
   for (std::size_t i = 0; i < count; ++i) {
-    if (!(field.limit(sources[i], position) - change < high)) continue;
+    if (!(limits_[i] - change < high)) continue;
     any = true;
     if (kept) kept->push_back(sources[i]);
   }

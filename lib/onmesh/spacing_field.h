@@ -81,6 +81,9 @@ class CellSpacing {
   /// \return whether any is left: else the spacing is most(face) all over the cell
   bool bound(const SpacingField& field, const FaceFrame& frame, const Cell& cell,
              const Index* sources, std::size_t count, std::vector<Index>* kept = nullptr);
+
+ private:
+  std::vector<double> limits_;
 };
 
 }  // namespace onmesh
