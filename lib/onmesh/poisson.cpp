@@ -112,6 +112,7 @@ class Sampler {
   void fill();
   CellList make_cells(const FaceCell* first, std::size_t count) const;
   void fill(const CellList& list, double share);
+  double turn(const FaceCell& cell, std::uint64_t round) const;
   void report(double done) const {
     if (progress_) progress_("sample", done);
   }
@@ -159,6 +160,15 @@ void Sampler::fill() {
   }
 }
 
+// Probability that it is a cell's turn. Where faces are much smaller than the spacing, only a few of
+// their cells throw darts at first, since each dart looks at all faces around it.
+double Sampler::turn(const FaceCell& cell, std::uint64_t round) const {
+  constexpr std::uint64_t kAllTakePart = 20;
+  const double spacing = field_.most(cell.face);
+  const double share = 2 * cell.cell.area() / (spacing * spacing);
+  return round < kAllTakePart ? std::ldexp(share, 2 * int(round)) : 1;
+}
+
 CellList Sampler::make_cells(const FaceCell* first, std::size_t count) const {
   CellList all;
   const auto lists = in_blocks<CellList>(
@@ -173,7 +183,8 @@ CellList Sampler::make_cells(const FaceCell* first, std::size_t count) const {
   return all;
 }
 
-// Makes the set maximal on the cells, round by round: every cell that is not covered throws a dart.
+// Makes the set maximal on the cells, round by round: every cell whose turn it is and that is not
+// covered throws a dart.
 void Sampler::fill(const CellList& list, double share) {
   oneapi::tbb::enumerable_thread_specific<CellFiller> fillers(CellFiller(board_, ball_));
   std::vector<Index> open(list.cells.size()), still_open;
@@ -187,6 +198,7 @@ void Sampler::fill(const CellList& list, double share) {
         const Index at = open[first + i];
         const FaceCell& cell = list.cells[at];
         SplitMix random(seed_ + 1 + round, number_ + at);
+        if (random.uniform() > turn(cell, round)) return;
         covered[at] =
             fillers.local().cover(cell, list.sources.data() + cell.first_source, random, block);
       }));
