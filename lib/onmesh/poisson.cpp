@@ -21,13 +21,15 @@ namespace onmesh {
 namespace {
 
 constexpr double kMaxSamples = 1 << 28;
-constexpr double kCandidateShare = 0.25;  // of the time, for progress
+constexpr std::uint64_t kCandidateTurns = 3;  // more of them leave less to the filling, which is
+                                              // less random
+constexpr double kCandidateShare = 0.25;      // of the time, for progress
 
 // Work is done in these portions whatever the number of threads, since darts of one portion meet
 // when all of them are thrown.
-constexpr std::size_t kDartsAtOnce = 1 << 16;
+constexpr std::size_t kDartsAtOnce = 1 << 14;
 constexpr std::size_t kBlock = 256;
-constexpr double kCellsAtOnce = 1 << 19;  // cells in memory, about
+constexpr double kCellsAtOnce = 1 << 15;  // cells in memory, about
 
 /// body(i, block) for all i < count in parallel, with blocks of kBlock consecutive numbers each.
 template <class Block, class Body>
@@ -128,7 +130,7 @@ class Sampler {
   std::uint64_t number_ = 0;  // of the next cell
 };
 
-// Points uniform over each face, as many as samples are expected on it.
+// Points uniform over each face, each time as many as samples are expected on it.
 void Sampler::throw_candidates() {
   const std::vector<CandidatePart> parts = candidate_parts(mesh_, field_, chosen_.faces);
   oneapi::tbb::enumerable_thread_specific<SurfaceBall> balls(ball_);
@@ -136,10 +138,12 @@ void Sampler::throw_candidates() {
   for (; first < parts.size(); first = last) {
     for (double count = 0; last < parts.size() && count < double(kDartsAtOnce); ++last)
       count += parts[last].count;
-    board_.settle(in_blocks<DartBlock>(last - first, [&](std::size_t i, DartBlock& block) {
-      SplitMix random(seed_, first + i);
-      throw_candidates_at(parts[first + i], random, board_, balls.local(), block);
-    }));
+    for (std::uint64_t turn = 0; turn < kCandidateTurns; ++turn) {
+      board_.settle(in_blocks<DartBlock>(last - first, [&](std::size_t i, DartBlock& block) {
+        SplitMix random(seed_ ^ turn, first + i);
+        throw_candidates_at(parts[first + i], random, board_, balls.local(), block);
+      }));
+    }
     report(kCandidateShare * double(last) / double(parts.size()));
   }
 }
@@ -160,8 +164,8 @@ void Sampler::fill() {
   }
 }
 
-// Probability that it is a cell's turn. Where faces are much smaller than the spacing, only a few of
-// their cells throw darts at first, since each dart looks at all faces around it.
+// Probability that it is a cell's turn. Where faces are much smaller than the spacing, only a few
+// of their cells throw darts at first, since each dart looks at all faces around it.
 double Sampler::turn(const FaceCell& cell, std::uint64_t round) const {
   constexpr std::uint64_t kAllTakePart = 20;
   const double spacing = field_.most(cell.face);

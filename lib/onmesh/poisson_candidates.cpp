@@ -8,7 +8,6 @@ namespace onmesh {
 
 namespace {
 
-constexpr double kPerSample = 1;  // candidates; more of them leave less to the filling
 constexpr double kMostInPart = 4096;
 
 void divide(const CandidatePart& part, std::vector<CandidatePart>& parts) {
@@ -32,7 +31,7 @@ std::vector<CandidatePart> candidate_parts(const TriangleMesh& mesh, const Spaci
   std::vector<CandidatePart> parts;
   for (const Index f : faces) {
     const double most = field.most(f);
-    const double count = kPerSample * kPoissonDensity * mesh.face_area(f) / (most * most);
+    const double count = kPoissonDensity * mesh.face_area(f) / (most * most);
     divide({f, {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, count}, parts);
   }
   return parts;
