@@ -333,7 +333,8 @@ TEST_CASE("Poisson quadrature comes close to texel quadrature", "[filter]") {
   CHECK(report.without_sample == 0);
   const double db = psnr(mesh, texels, poisson);
   CAPTURE(db);
-  CHECK(db > 38);
+  CHECK(db > 45);  // samples share the area of the texel that they are in
+  CHECK(report.sample_spacing <= report.largest_sample_spacing);
 }
 
 TEST_CASE("texels without a Poisson sample within the radius keep their values", "[filter]") {

@@ -8,7 +8,6 @@
 
 #include "onmesh/error.h"
 #include "onmesh/surface_ball.h"
-#include "onmesh/texel_map.h"
 
 using namespace onmesh;
 
@@ -516,90 +515,4 @@ TEST_CASE("progress grows to one and can cancel", "[poisson]") {
                                     if (done > 0.3) throw std::runtime_error("cancelled");
                                   }),
                   std::runtime_error);
-}
-
-// ---- default spacing ----
-
-namespace {
-
-// The texel map of a mesh whose UVs are its x and y (scaled by 1 / size), by trying all texels.
-TexelMap map_of_plane(const TriangleMesh& mesh, const Vec2& size, int width, int height) {
-  TexelMap map;
-  map.width = width;
-  map.height = height;
-  map.face_offsets = {0};
-  std::set<std::pair<int, int>> claimed;
-  for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
-    const auto t = mesh.corners(f);
-    Eigen::Matrix3d pixels;  // of the corners, homogeneous
-    for (int k = 0; k < 3; ++k)
-      pixels.col(k) = Vec3(t[std::size_t(k)].x() / size.x() * width,
-                           (1 - t[std::size_t(k)].y() / size.y()) * height, 1);
-    map.to_barycentric_.push_back(pixels.inverse());
-    map.texel_area.push_back(size.x() / width * size.y() / height);
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        if ((map.to_barycentric_.back() * Vec3(x + 0.5, y + 0.5, 1)).minCoeff() >= -1e-9 &&
-            claimed.insert({x, y}).second)
-          map.claims.push_back({x, y});
-    map.face_offsets.push_back(Index(map.claims.size()));
-  }
-  return map;
-}
-
-}  // namespace
-
-TEST_CASE("the default spacing hits every texel where texels are uniform", "[poisson]") {
-  const Vec2 size(1.5, 1);
-  for (const auto& [width, height] : {std::pair{60, 40}, {30, 40}, {90, 25}}) {
-    const TriangleMesh mesh = plane(2, 3, size.x(), size.y());
-    const TexelMap map = map_of_plane(mesh, size, width, height);
-    const double spacing = default_poisson_spacing(mesh, map);
-    const double texel = std::min(size.x() / width, size.y() / height);
-    CHECK(spacing == Approx(texel / 2).epsilon(2e-3));
-    CHECK(spacing < texel / 2);
-    const auto samples = sample(mesh, spacing);
-    std::vector<int> hits(std::size_t(width * height), 0);
-    for (const auto& s : samples) {
-      const Vec3 p = position(mesh, s);
-      const int x = std::min(int(p.x() / size.x() * width), width - 1);
-      const int y = std::min(int(p.y() / size.y() * height), height - 1);
-      ++hits[std::size_t(y * width + x)];
-    }
-    CHECK(*std::min_element(hits.begin(), hits.end()) >= 1);
-    CHECK(samples.size() < 16 * hits.size());
-  }
-}
-
-TEST_CASE("the default spacing does not follow a few tiny texels", "[poisson]") {
-  const Vec2 size(1, 1);
-  const TriangleMesh mesh = plane(4, 4, 1, 1);
-  TexelMap map = map_of_plane(mesh, size, 40, 40);
-  const double uniform = default_poisson_spacing(mesh, map);
-  // One face has texels of a hundredth of the size, but no more of them than 1 in 51.
-  map.to_barycentric_[5].leftCols<2>() *= 0.01;
-  map.texel_area[5] *= 1e-4;
-  const Index claims = map.face_offsets[6] - map.face_offsets[5];
-  REQUIRE(claims > 32);
-  CHECK(default_poisson_spacing(mesh, map) < uniform);  // 1 in 32: counts, but only so far
-  const double texels = double(map.claims.size());
-  CHECK(0.7 / std::pow(default_poisson_spacing(mesh, map), 2) == Approx(16 * texels).epsilon(0.01));
-  for (std::size_t f = 6; f < map.face_offsets.size(); ++f) map.face_offsets[f] -= claims - 20;
-  CHECK(default_poisson_spacing(mesh, map) == Approx(uniform).epsilon(1e-12));
-}
-
-TEST_CASE("stretched texels are measured by their narrow side", "[poisson]") {
-  // A sheared and stretched map: the disc inscribed in the parallelogram.
-  TriangleMesh mesh = plane(1, 1, 1, 1);
-  TexelMap map = map_of_plane(mesh, Vec2(1, 1), 10, 10);
-  const double h = default_poisson_spacing(mesh, map);
-  for (Vec3& p : mesh.positions) p.x() += 2 * p.y();  // shear: heights 0.1 and 0.1 / sqrt(5)
-  CHECK(default_poisson_spacing(mesh, map) == Approx(h / std::sqrt(5.0)).epsilon(1e-9));
-}
-
-TEST_CASE("without texels there is no default spacing", "[poisson]") {
-  const TriangleMesh mesh = plane(1, 1, 1, 1);
-  TexelMap map = map_of_plane(mesh, Vec2(1, 1), 10, 10);
-  map.texel_area.assign(2, 0.0);
-  CHECK_THROWS_AS(default_poisson_spacing(mesh, map), InputError);
 }

@@ -1,6 +1,8 @@
 #include <catch2/catch.hpp>
+#include <map>
 #include <set>
 
+#include "onmesh/poisson.h"
 #include "onmesh/refine.h"
 #include "onmesh/samples.h"
 #include "onmesh/shapes.h"
@@ -81,4 +83,57 @@ TEST_CASE("surface points carry the texel whose square holds them", "[samples]")
     CHECK(s.area == 0.5F);
   }
   CHECK(got == expected);
+}
+
+TEST_CASE("samples that share their texels stand for the area of each texel", "[samples]") {
+  for (const TriangleMesh& mesh : {make_torus(20, 12), make_cube(2), make_sphere(1)}) {
+    const TexelMap map = make_texel_map(mesh, 70, 64);  // charts end within texels
+    const NodeSurface surface = refine_to(mesh, 0.3);
+    const GradedSamples drawn = texel_poisson_samples(mesh, map, {});
+    const Samples samples = sharing_samples(mesh, map, surface, drawn.points);
+    REQUIRE(samples.samples.size() <= drawn.points.size());
+    std::map<Index, double> shared, own, any;
+    for (const Sample& s : samples.samples) {
+      shared[s.texel] += static_cast<double>(s.area);
+      CHECK(any.try_emplace(s.texel, s.area).first->second == s.area);
+    }
+    for (Index f = 0; f < mesh.faces.size(); ++f) {
+      for (Index c = map.face_offsets[f]; c < map.face_offsets[f + 1]; ++c) {
+        own[map.texel(map.claims[c])] += map.texel_area[f];
+      }
+    }
+    REQUIRE(shared.size() == own.size());
+    for (const auto& [texel, area] : own) CHECK(shared[texel] == Approx(area).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("charts that claim the same texel share its area among their own samples", "[samples]") {
+  // Two squares of different size in space on the same texels.
+  TriangleMesh mesh = make_plane(1, 1);
+  TriangleMesh other = make_plane(1, 1, 2, 2);
+  const auto positions = static_cast<Index>(mesh.positions.size());
+  const auto uvs = static_cast<Index>(mesh.uvs.size());
+  for (const Vec3& p : other.positions) mesh.positions.emplace_back(p.x() + 3, p.y(), 0);
+  for (const Vec2& uv : other.uvs) mesh.uvs.push_back(uv);
+  for (auto f : other.faces)
+    mesh.faces.push_back({f[0] + positions, f[1] + positions, f[2] + positions});
+  for (auto f : other.face_uvs) mesh.face_uvs.push_back({f[0] + uvs, f[1] + uvs, f[2] + uvs});
+  mesh.face_materials.assign(mesh.faces.size(), kNone);
+  const TexelMap map = make_texel_map(mesh, 12, 12);
+  const NodeSurface surface = refine_to(mesh, 0.5);
+  const Samples samples =
+      sharing_samples(mesh, map, surface, texel_poisson_samples(mesh, map, {}).points);
+  std::array<std::map<Index, double>, 2> shared;
+  for (Index f = 0; f + 1 < samples.face_offsets.size(); ++f) {
+    const Index node = surface.nodes.faces[f][0];
+    const bool large = mesh.position(surface.nodes.nodes[node]).x() > 2;
+    for (Index i = samples.face_offsets[f]; i < samples.face_offsets[f + 1]; ++i) {
+      shared[large][samples.samples[i].texel] += static_cast<double>(samples.samples[i].area);
+    }
+  }
+  for (const bool large : {false, true}) {
+    REQUIRE(shared[large].size() == 144);
+    for (const auto& [texel, area] : shared[large])
+      CHECK(area == Approx((large ? 4.0 : 1.0) / 144).epsilon(1e-5));
+  }
 }

@@ -192,9 +192,13 @@ TEST_CASE("sample hits every texel of a uniform atlas and counts them", "[tools]
   const auto report = nlohmann::json::parse(space.must("sample m.obj -o s.ply --json").out);
   CHECK(report["texels"]["covered"] == 32 * 32);
   CHECK(report["texels"]["hit"] == 32 * 32);
+  CHECK(report["spacing"] <= report["largest_spacing"]);
+  CHECK(ply_columns(space / "s.ply")["spacing"].size() == report["samples"]);
   const auto few =
       nlohmann::json::parse(space.must("sample m.obj -t m.png -o s.ply --spacing 0.2 --json").out);
   CHECK(few["texels"]["hit"] == few["samples"]);
+  CHECK(few["spacing"] == few["largest_spacing"]);
+  CHECK(ply_columns(space / "s.ply").count("spacing") == 0);
   CHECK(
       nlohmann::json::parse(space.must("sample m.obj -o s.ply --spacing 0.2 --json").out)["texels"]
           .is_null());

@@ -52,8 +52,9 @@ Command make_command() {
       "values; measured on some texels of every patch (default: 1/512)");
   add("node-spacing", text(), "length between the nodes of the distance table (default: by sigma)");
   add("samples", text("texel"),
-      "texel (every texel once) or poisson (random points of even density)");
-  add("spacing", text(), "poisson: length between samples (default: every texel is hit)");
+      "texel (every texel once) or poisson (random points, none close to another)");
+  add("spacing", text(),
+      "poisson: length between samples (default: by the size of the texels, so that each is hit)");
   add("r-coef", text(), "poisson: the same as a multiple of the mesh's mean edge length");
   add("seed", text("1"), "poisson: of the random points");
   add("wrap", text("repeat"), "UVs outside [0,1]: repeat or clamp");
@@ -159,6 +160,8 @@ json plan_json(const FilterPlan& plan) {
           {"finest_node_spacing", plan.finest_spacing},
           {"bridge", plan.bridge > 0 ? json(plan.bridge) : json()},
           {"sample_spacing", plan.sample_spacing > 0 ? json(plan.sample_spacing) : json()},
+          {"largest_sample_spacing",
+           plan.sample_spacing > 0 ? json(plan.largest_sample_spacing) : json()},
           {"surface_area", plan.surface_area},
           {"texels", plan.texels},
           {"overlapped_texels", plan.overlapped},
@@ -190,7 +193,9 @@ json report_json(const FilterReport& report) {
         {"radius", report.radius},
         {"texel_size", report.texel_size},
         {"node_spacing", report.node_spacing},
-        {"sample_spacing", report.sample_spacing > 0 ? json(report.sample_spacing) : json()}}},
+        {"sample_spacing", report.sample_spacing > 0 ? json(report.sample_spacing) : json()},
+        {"largest_sample_spacing",
+         report.sample_spacing > 0 ? json(report.largest_sample_spacing) : json()}}},
       {"counts",
        {{"texels", report.texels},
         {"samples", report.samples},
@@ -229,7 +234,11 @@ void print_plan(const FilterPlan& plan, const Image& texture, std::ostream& out)
       << length_text(plan.finest_spacing, plan.texel_size) << " where distances bend\n";
   if (plan.sample_spacing > 0) {
     out << "samples       about " << format_count(plan.samples) << ", "
-        << length_text(plan.sample_spacing, plan.texel_size) << " apart\n";
+        << length_text(plan.sample_spacing, plan.texel_size);
+    if (plan.largest_sample_spacing > plan.sample_spacing) {
+      out << " ... " << length_text(plan.largest_sample_spacing, plan.texel_size);
+    }
+    out << " apart\n";
   }
   out << "memory        about " << format_bytes(plan.memory_bytes) << '\n';
 }

@@ -1,5 +1,6 @@
 // onmesh sample: Poisson-disk samples of a mesh, as PLY.
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -13,6 +14,7 @@
 #include "onmesh/mesh_io.h"
 #include "onmesh/ply.h"
 #include "onmesh/poisson.h"
+#include "onmesh/texel_hits.h"
 #include "onmesh/texel_map.h"
 
 namespace onmesh::tools {
@@ -26,10 +28,11 @@ Command make_command() {
       "Writes Poisson-disk samples of the surface: random points no two of which are closer than\n"
       "the spacing, so many that no more fit. Sides of a thin sheet don't count as close. Without "
       "a\n"
-      "spacing, it follows from the texels (of the mesh's own texture, unless -t or --resolution\n"
-      "says which). The PLY has x y z, the face's normal nx ny nz, u v where the mesh has them, "
-      "and\n"
-      "the number of the face in the mesh, counted from 0 after polygons are triangulated.";
+      "spacing, it follows the size of the texels (of the mesh's own texture, unless -t or\n"
+      "--resolution says which), and every texel is hit. The PLY has x y z, the face's normal\n"
+      "nx ny nz, u v where the mesh has them, the number of the face in the mesh, counted from 0 "
+      "after\n"
+      "polygons are triangulated, and the sample's spacing where it follows the texels.";
   command.examples =
       "  onmesh sample cube.obj -o samples.ply\n"
       "  onmesh sample cube.obj -o samples.ply --r-coef 0.006 --seed 7\n"
@@ -39,7 +42,8 @@ Command make_command() {
   command.options.add_options()("output,o", text(), "the PLY to write");
   add_atlas_options(command.options);
   auto add = command.options.add_options();
-  add("spacing", text(), "least distance: mesh units, 2tx (texels) or 1% (of the diagonal)");
+  add("spacing", text(),
+      "least distance, the same everywhere: mesh units, 2tx (texels) or 1% (of the diagonal)");
   add("r-coef", text(), "the same as a multiple of the mean edge length");
   add("seed", text("1"), "another seed gives other samples");
   add("json", flag(), "print the report as JSON");
@@ -52,6 +56,7 @@ Command make_command() {
 struct Plan {
   PoissonOptions options;
   std::optional<TexelMap> map;
+  bool graded = false;  // the spacing follows the texels
 };
 
 Plan make_plan(const po::variables_map& values, const TriangleMesh& mesh) {
@@ -75,21 +80,32 @@ Plan make_plan(const po::variables_map& values, const TriangleMesh& mesh) {
   } else if (has(values, "r-coef")) {
     plan.options.spacing = number_of(values, "r-coef", 1e-9, 1e9) * mesh.mean_edge_length();
   } else {
-    plan.options.spacing = default_poisson_spacing(mesh, *plan.map);
+    plan.graded = true;
   }
   return plan;
 }
 
-// How many of the covered texels have a sample in their square.
+GradedSamples draw(const TriangleMesh& mesh, const Plan& plan, const Progress& progress) {
+  if (plan.graded) return texel_poisson_samples(mesh, *plan.map, plan.options, progress);
+  GradedSamples samples;
+  samples.points = poisson_samples(mesh, plan.options, progress);
+  samples.spacings.assign(samples.points.size(), plan.options.spacing);
+  return samples;
+}
+
+// How many of the covered texels have a sample in their square, on a chart that claims them.
 struct Hits {
   std::uint64_t hit = 0, covered = 0;
 };
 
 Hits count_hits(const TriangleMesh& mesh, const TexelMap& map,
                 const std::vector<SurfacePoint>& samples) {
+  const TexelHits hits_of(map);
   std::vector<bool> is_hit(map.coverage.size(), false);
   for (const SurfacePoint& s : samples) {
-    if (map.chart_of_face[s.face] != kNone) is_hit[map.texel_at(mesh.uv(s))] = true;
+    if (map.chart_of_face[s.face] == kNone) continue;
+    const Index claim = hits_of.find(s.face, mesh.uv(s));
+    if (claim != kNone) is_hit[map.texel(map.claims[claim])] = true;
   }
   Hits hits;
   for (std::size_t t = 0; t < is_hit.size(); ++t) {
@@ -100,7 +116,8 @@ Hits count_hits(const TriangleMesh& mesh, const TexelMap& map,
   return hits;
 }
 
-std::vector<PlyColumn> columns(const TriangleMesh& mesh, const std::vector<SurfacePoint>& samples) {
+std::vector<PlyColumn> columns(const TriangleMesh& mesh, const std::vector<SurfacePoint>& samples,
+                               const std::vector<double>* spacings) {
   std::vector<PlyColumn> result;
   const auto add = [&](const char* name) -> std::vector<double>& {
     result.push_back({});
@@ -128,6 +145,7 @@ std::vector<PlyColumn> columns(const TriangleMesh& mesh, const std::vector<Surfa
   auto& column = add("face");
   for (const SurfacePoint& s : samples) column.push_back(s.face);
   result.back().integer = true;
+  if (spacings) add("spacing") = *spacings;
   return result;
 }
 
@@ -153,43 +171,50 @@ int run_sample(const std::vector<std::string>& arguments) {
   check_interrupted();
 
   const auto start = std::chrono::steady_clock::now();
-  std::vector<SurfacePoint> samples;
+  GradedSamples samples;
   {
     ProgressBar bar(quiet);
-    samples = naming(path, [&] { return poisson_samples(mesh, options, bar.callback()); });
+    samples = naming(path, [&] { return draw(mesh, plan, bar.callback()); });
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  const double least = least_sample_distance(mesh, samples, options.spacing);
   check_interrupted();
-  std::ostringstream comment;
-  comment << "onmesh Poisson-disk samples, spacing " << options.spacing;
-  write_ply(output, columns(mesh, samples), {}, {comment.str()});
+  const auto count = samples.points.size();
+  const double least_distance = least_sample_distance(mesh, samples);
+  check_interrupted();
+  const auto [least, largest] =
+      std::minmax_element(samples.spacings.begin(), samples.spacings.end());
+  std::ostringstream spacing;
+  spacing << *least;
+  if (plan.graded) spacing << " ... " << *largest;
+  write_ply(output, columns(mesh, samples.points, plan.graded ? &samples.spacings : nullptr), {},
+            {"onmesh Poisson-disk samples, spacing " + spacing.str()});
 
   double area = 0;
   for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
     if (options.faces.empty() || options.faces[f]) area += mesh.face_area(f);
   }
-  const Hits hits = plan.map ? count_hits(mesh, *plan.map, samples) : Hits{};
+  const Hits hits = plan.map ? count_hits(mesh, *plan.map, samples.points) : Hits{};
   if (flag_of(values, "json")) {
     nlohmann::json report = new_report(command.name);
     report["mesh"] = path;
     report["output"] = output;
     report["seed"] = options.seed;
-    report["spacing"] = options.spacing;
-    report["samples"] = samples.size();
+    report["spacing"] = *least;
+    report["largest_spacing"] = *largest;
+    report["samples"] = count;
     report["area"] = area;
-    report["area_per_sample"] = area / double(samples.size());
-    report["least_distance"] = least;
+    report["area_per_sample"] = area / double(count);
+    report["least_distance"] = least_distance;
     report["texels"] = nullptr;
     if (plan.map) report["texels"] = {{"covered", hits.covered}, {"hit", hits.hit}};
     report["seconds"] = seconds.count();
     print_report(report);
   } else if (!quiet) {
-    std::cout << "samples          " << format_count(samples.size()) << " in "
+    std::cout << "samples          " << format_count(count) << " in "
               << format_seconds(seconds.count()) << "\n"
-              << "spacing          " << options.spacing << "\n"
-              << "least distance   " << least << "\n"
-              << "area per sample  " << area / double(samples.size()) << "\n";
+              << "spacing          " << spacing.str() << "\n"
+              << "least distance   " << least_distance << "\n"
+              << "area per sample  " << area / double(count) << "\n";
     if (plan.map) {
       std::cout << "texels hit       " << format_count(hits.hit) << " of "
                 << format_count(hits.covered) << "\n";

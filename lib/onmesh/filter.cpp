@@ -92,7 +92,6 @@ TexelMap first_claims(const TexelMap& map) {
 Samples draw_poisson(const FilterSetup& setup, const NodeSurface& surface, std::uint64_t seed,
                      const Progress& progress) {
   PoissonOptions options;
-  options.spacing = setup.plan.sample_spacing;
   options.seed = seed;
   options.faces.resize(setup.mesh.faces.size());
   double area = 0;
@@ -100,6 +99,11 @@ Samples draw_poisson(const FilterSetup& setup, const NodeSurface& surface, std::
     options.faces[f] = setup.map.texel_area[f] > 0;
     if (options.faces[f]) area += setup.mesh.face_area(f);
   }
+  if (setup.graded) {
+    const auto samples = texel_poisson_samples(setup.mesh, setup.map, options, progress);
+    return sharing_samples(setup.mesh, setup.map, surface, samples.points);
+  }
+  options.spacing = setup.plan.sample_spacing;
   const std::vector<SurfacePoint> points = poisson_samples(setup.mesh, options, progress);
   return point_samples(setup.mesh, setup.map, surface, points, area / double(points.size()));
 }
@@ -272,6 +276,7 @@ Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& o
   report.radius = told.radius;
   report.node_spacing = told.node_spacing;
   report.sample_spacing = told.sample_spacing;
+  report.largest_sample_spacing = told.largest_sample_spacing;
   report.texel_size = told.texel_size;
   report.overlapped = plan.overlapped;
   report.warnings = plan.warnings;

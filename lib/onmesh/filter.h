@@ -32,7 +32,7 @@ struct FilterOptions {
   /// range of values, > 0.
   double tolerance = 1.0 / 512;
   SampleKind samples = SampleKind::texel;
-  std::optional<Length> spacing;       ///< Poisson spacing; default: every texel is hit
+  std::optional<Length> spacing;       ///< Poisson spacing; default: by texel, all are hit
   std::optional<double> r_coef;        ///< Poisson spacing in mean edge lengths, > 0
   std::optional<Length> node_spacing;  ///< default: the spacing rule
   std::optional<Length> bridge;        ///< > 0: join components across smaller gaps (bridge.h)
@@ -48,7 +48,8 @@ struct FilterOptions {
 struct FilterPlan {
   double sigma_spatial = 0, radius = 0;
   double node_spacing = 0, finest_spacing = 0;
-  double sample_spacing = 0;  ///< Poisson mode only
+  /// Poisson mode only: the least and the largest, which differ where they follow the texels.
+  double sample_spacing = 0, largest_sample_spacing = 0;
   double texel_size = 0, diagonal = 0, surface_area = 0;
   double bridge = 0;             ///< 0 = none
   std::uint64_t texels = 0;      ///< targets, each claim of a texel counted
@@ -67,8 +68,9 @@ struct FilterReport {
   std::string backend, backend_reason, instruction_set;
   std::string
       refinement;  ///< "intrinsic", or "bisection" where the mesh is not manifold or bridged
-  /// Mesh units; sample_spacing in Poisson mode only.
-  double sigma_spatial = 0, radius = 0, node_spacing = 0, sample_spacing = 0, texel_size = 0;
+  /// Mesh units; sample spacings in Poisson mode only.
+  double sigma_spatial = 0, radius = 0, node_spacing = 0, texel_size = 0;
+  double sample_spacing = 0, largest_sample_spacing = 0;
   std::uint64_t texels = 0, samples = 0, nodes = 0, node_faces = 0, patches = 0;
   std::uint64_t pairs = 0;  ///< (target, sample) pairs summed one by one
   /// Samples within the radius of a target, mean; estimated from some targets where the nodes are

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "onmesh/error.h"
-#include "onmesh/poisson.h"
+#include "onmesh/spacing_field.h"
 
 namespace onmesh {
 namespace {
@@ -148,9 +148,9 @@ NodeSpacing node_spacing_for(double sigma, double texel_size) {
 }
 
 FilterPlan in_mesh_units(FilterPlan plan, double unit) {
-  for (double* length :
-       {&plan.sigma_spatial, &plan.radius, &plan.node_spacing, &plan.finest_spacing,
-        &plan.sample_spacing, &plan.texel_size, &plan.diagonal, &plan.bridge}) {
+  for (double* length : {&plan.sigma_spatial, &plan.radius, &plan.node_spacing,
+                         &plan.finest_spacing, &plan.sample_spacing, &plan.largest_sample_spacing,
+                         &plan.texel_size, &plan.diagonal, &plan.bridge}) {
     *length *= unit;
   }
   plan.surface_area *= unit * unit;
@@ -196,20 +196,21 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   plan.node_spacing = options.node_spacing ? resolved(*options.node_spacing) : rule.smooth;
   plan.finest_spacing = options.node_spacing ? plan.node_spacing / 4 : rule.finest;
 
-  double textured_area = 0;
+  std::vector<Index> textured;
   for (Index f = 0; f < setup.mesh.faces.size(); ++f) {
-    const double area = setup.mesh.face_area(f);
-    plan.surface_area += area;
-    if (setup.map.texel_area[f] > 0) textured_area += area;
+    plan.surface_area += setup.mesh.face_area(f);
+    if (setup.map.texel_area[f] > 0) textured.push_back(f);
   }
   plan.samples = plan.texels;
   if (options.samples == SampleKind::poisson) {
-    plan.sample_spacing = options.spacing  ? resolved(*options.spacing)
-                          : options.r_coef ? *options.r_coef * setup.mesh.mean_edge_length()
-                                           : default_poisson_spacing(setup.mesh, setup.map);
-    // A random maximal set has about 0.7 samples per square of the spacing.
-    plan.samples = static_cast<std::uint64_t>(0.7 * textured_area /
-                                              (plan.sample_spacing * plan.sample_spacing));
+    setup.graded = !options.spacing && !options.r_coef;
+    const SpacingField field = options.spacing ? SpacingField(resolved(*options.spacing))
+                               : options.r_coef
+                                   ? SpacingField(*options.r_coef * setup.mesh.mean_edge_length())
+                                   : SpacingField(setup.mesh, setup.map);
+    plan.sample_spacing = field.least();
+    plan.largest_sample_spacing = field.largest();
+    plan.samples = static_cast<std::uint64_t>(field.expected_samples(setup.mesh, textured));
   }
   // Twice the area of an equilateral triangle per node; refinement stays somewhat below the
   // spacing.

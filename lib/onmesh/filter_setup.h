@@ -9,7 +9,8 @@ struct FilterSetup {
   TriangleMesh mesh;  ///< welded and clean, in working units
   CleanReport cleaning;
   TexelMap map;
-  FilterPlan plan;  ///< in working units
+  FilterPlan plan;      ///< in working units
+  bool graded = false;  ///< Poisson samples follow the size of the texels
   /// Mesh units per working unit: the power of two that brings the mesh's diagonal near 1, so that
   /// squared distances in float neither overflow nor vanish, whatever the mesh's unit.
   double unit = 1;

@@ -31,20 +31,32 @@ struct PoissonOptions {
 std::vector<SurfacePoint> poisson_samples(const TriangleMesh& mesh, const PoissonOptions& options,
                                           const Progress& progress = {});
 
-/// Smallest distance of two samples in space, leaving out pairs closer than the spacing that don't
-/// conflict because the surface does not join them; infinite if no two are within twice the
-/// spacing.
+/// Samples that each have a spacing of their own.
+struct GradedSamples {
+  std::vector<SurfacePoint> points;
+  std::vector<double> spacings;  ///< mesh units
+};
+
+/// Samples that hit every texel claimed on the faces to sample: each has one in its square on its
+/// own chart, also where the chart covers only a part of the square.
+///
+/// The spacing follows the size of the texels (SpacingField), and two samples conflict when they
+/// are closer than the smaller of their spacings and joined by surface within the ball of its own
+/// spacing around one of them. The set is maximal as above, which leaves few texels out: those get
+/// a sample in the end, whose spacing is the distance to the next one. On square texels that is
+/// about 2.8 samples per texel, on others more by the ratio of their sides, up to 16; `spacing` of
+/// the options is not used.
+/// \throw InputError if no texel lies on the surface, no face to sample has area, or more than
+///   2^28 samples would be needed
+GradedSamples texel_poisson_samples(const TriangleMesh& mesh, const TexelMap& map,
+                                    const PoissonOptions& options, const Progress& progress = {});
+
+/// Smallest distance of two samples in space, leaving out pairs closer than the smaller of their
+/// spacings that don't conflict because the surface does not join them; infinite if no two are
+/// within twice the least spacing.
+double least_sample_distance(const TriangleMesh& mesh, const GradedSamples& samples);
+/// The same for samples that share one spacing.
 double least_sample_distance(const TriangleMesh& mesh, const std::vector<SurfacePoint>& samples,
                              double spacing);
-
-/// Spacing for poisson_samples() at which texels are hit: in a maximal set every disc whose radius
-/// is the spacing holds a sample, so the spacing is the radius of the disc inscribed in a texel on
-/// the surface (half a texel where texels are square). Texels differ in size: the radius taken is
-/// the one that 98% of the claimed texels reach, but not less than gives 16 samples per texel on
-/// average, so that a few tiny texels don't make millions of samples. Where the second bound does
-/// not bite, at least 98% of the texels that lie wholly inside a chart get a sample; on uniform
-/// charts all of them do, with about 2.8 samples per texel.
-/// \throw InputError if no texel lies on the surface
-double default_poisson_spacing(const TriangleMesh& mesh, const TexelMap& map);
 
 }  // namespace onmesh

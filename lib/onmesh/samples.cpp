@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "onmesh/texel_hits.h"
+
 namespace onmesh {
 namespace {
 
@@ -145,6 +147,40 @@ Samples point_samples(const TriangleMesh& mesh, const TexelMap& map, const NodeS
     const NodePoint at = surface.overlay.locate(points[i]);
     face_of[i] = at.face;
     located[i] = make_sample(map.texel_at(mesh.uv(points[i])), at.barycentric, area);
+  });
+  return sort_into_faces(std::move(located), face_of,
+                         static_cast<Index>(surface.nodes.faces.size()));
+}
+
+Samples sharing_samples(const TriangleMesh& mesh, const TexelMap& map, const NodeSurface& surface,
+                        const std::vector<SurfacePoint>& points) {
+  const TexelHits hits(map);
+  std::vector<Index> claim_of(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+    const Index face = points[i].face;
+    claim_of[i] = map.chart_of_face[face] == kNone ? kNone : hits.find(face, mesh.uv(points[i]));
+  });
+  std::vector<Index> sharers(map.claims.size(), 0);
+  std::vector<SurfacePoint> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (claim_of[i] == kNone) continue;
+    ++sharers[claim_of[i]];
+    claim_of[kept.size()] = claim_of[i];
+    kept.push_back(points[i]);
+  }
+  // Claims that another one leads give their area to it.
+  std::vector<double> areas(map.claims.size(), 0.0);
+  for (Index claim = 0; claim < areas.size(); ++claim)
+    areas[hits.leader(claim)] += map.texel_area[hits.face_of(claim)];
+
+  std::vector<Sample> located(kept.size());
+  std::vector<Index> face_of(kept.size());
+  tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t i) {
+    const Index claim = claim_of[i];
+    const NodePoint at = surface.overlay.locate(kept[i]);
+    face_of[i] = at.face;
+    located[i] =
+        make_sample(map.texel(map.claims[claim]), at.barycentric, areas[claim] / sharers[claim]);
   });
   return sort_into_faces(std::move(located), face_of,
                          static_cast<Index>(surface.nodes.faces.size()));

@@ -30,4 +30,10 @@ Samples texel_samples(const TexelMap& map, const NodeSurface& surface);
 Samples point_samples(const TriangleMesh& mesh, const TexelMap& map, const NodeSurface& surface,
                       const std::vector<SurfacePoint>& points, double area);
 
+/// Samples at surface points that share the surface area of the texels they hit (TexelHits): each
+/// stands for its texel's area, as texel_samples() has it, divided by the number of points there.
+/// Points that hit no texel of their own chart carry padding colour and are left out.
+Samples sharing_samples(const TriangleMesh& mesh, const TexelMap& map, const NodeSurface& surface,
+                        const std::vector<SurfacePoint>& points);
+
 }  // namespace onmesh

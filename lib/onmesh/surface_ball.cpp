@@ -16,7 +16,8 @@ double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) 
 
 }  // namespace
 
-SurfaceBall::SurfaceBall(const TriangleMesh& mesh) : mesh_(mesh) {
+SurfaceBall::Joins SurfaceBall::make_joins(const TriangleMesh& mesh) {
+  Joins joins;
   const std::size_t corners = 3 * mesh.faces.size();
   // Edges: corners sorted by their end points; runs of equal ends are one edge.
   std::vector<std::uint64_t> ends(corners);
@@ -30,27 +31,33 @@ SurfaceBall::SurfaceBall(const TriangleMesh& mesh) : mesh_(mesh) {
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return ends[a] != ends[b] ? ends[a] < ends[b] : a < b;
   });
-  corner_edges_.resize(corners);
-  edge_faces_.resize(corners);
+  joins.corner_edges.resize(corners);
+  joins.edge_faces.resize(corners);
   for (std::size_t i = 0; i < corners; ++i) {
-    if (i == 0 || ends[order[i]] != ends[order[i - 1]]) edge_offsets_.push_back(Index(i));
-    corner_edges_[order[i]] = Index(edge_offsets_.size() - 1);
-    edge_faces_[i] = Index(order[i] / 3);
+    if (i == 0 || ends[order[i]] != ends[order[i - 1]]) joins.edge_offsets.push_back(Index(i));
+    joins.corner_edges[order[i]] = Index(joins.edge_offsets.size() - 1);
+    joins.edge_faces[i] = Index(order[i] / 3);
   }
-  edge_marks_.assign(edge_offsets_.size(), 0);
-  edge_offsets_.push_back(Index(corners));
+  joins.edge_offsets.push_back(Index(corners));
 
-  vertex_offsets_.assign(mesh.positions.size() + 1, 0);
+  joins.vertex_offsets.assign(mesh.positions.size() + 1, 0);
   for (const auto& f : mesh.faces)
-    for (const Index v : f) ++vertex_offsets_[v + 1];
-  std::partial_sum(vertex_offsets_.begin(), vertex_offsets_.end(), vertex_offsets_.begin());
-  vertex_faces_.resize(corners);
-  std::vector<Index> next(vertex_offsets_.begin(), vertex_offsets_.end() - 1);
+    for (const Index v : f) ++joins.vertex_offsets[v + 1];
+  std::partial_sum(joins.vertex_offsets.begin(), joins.vertex_offsets.end(),
+                   joins.vertex_offsets.begin());
+  joins.vertex_faces.resize(corners);
+  std::vector<Index> next(joins.vertex_offsets.begin(), joins.vertex_offsets.end() - 1);
   for (std::size_t c = 0; c < corners; ++c)
-    vertex_faces_[next[mesh.faces[c / 3][c % 3]]++] = Index(c / 3);
-  face_marks_.assign(mesh.faces.size(), 0);
-  vertex_marks_.assign(mesh.positions.size(), 0);
+    joins.vertex_faces[next[mesh.faces[c / 3][c % 3]]++] = Index(c / 3);
+  return joins;
 }
+
+SurfaceBall::SurfaceBall(const TriangleMesh& mesh)
+    : mesh_(&mesh),
+      joins_(std::make_shared<const Joins>(make_joins(mesh))),
+      face_marks_(mesh.faces.size(), 0),
+      edge_marks_(joins_->edge_offsets.size() - 1, 0),
+      vertex_marks_(mesh.positions.size(), 0) {}
 
 void SurfaceBall::start_marks() {
   if (++mark_ != 0) return;
@@ -73,23 +80,25 @@ const std::vector<Index>& SurfaceBall::find(Index face, const Vec3& centre, doub
   const double limit = radius * radius;
   for (std::size_t i = 0; i < result_.size(); ++i) {
     const Index f = result_[i];
-    const auto& v = mesh_.faces[f];
+    const auto& v = mesh_->faces[f];
     std::array<bool, 3> inside;
     for (std::size_t k = 0; k < 3; ++k) {
-      inside[k] = (mesh_.positions[v[k]] - centre).squaredNorm() < limit;
+      inside[k] = (mesh_->positions[v[k]] - centre).squaredNorm() < limit;
       if (!inside[k] || vertex_marks_[v[k]] == mark_) continue;
       vertex_marks_[v[k]] = mark_;
-      for (Index j = vertex_offsets_[v[k]]; j < vertex_offsets_[v[k] + 1]; ++j)
-        add(vertex_faces_[j]);
+      for (Index j = joins_->vertex_offsets[v[k]]; j < joins_->vertex_offsets[v[k] + 1]; ++j)
+        add(joins_->vertex_faces[j]);
     }
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3;
       if (inside[k] || inside[l]) continue;  // all its faces came with that vertex
-      const Index e = corner_edges_[3 * std::size_t(f) + k];
+      const Index e = joins_->corner_edges[3 * std::size_t(f) + k];
       if (edge_marks_[e] == mark_) continue;
       edge_marks_[e] = mark_;
-      if (squared_distance_to_segment(centre, mesh_.positions[v[k]], mesh_.positions[v[l]]) < limit)
-        for (Index j = edge_offsets_[e]; j < edge_offsets_[e + 1]; ++j) add(edge_faces_[j]);
+      if (squared_distance_to_segment(centre, mesh_->positions[v[k]], mesh_->positions[v[l]]) <
+          limit)
+        for (Index j = joins_->edge_offsets[e]; j < joins_->edge_offsets[e + 1]; ++j)
+          add(joins_->edge_faces[j]);
     }
   }
   return result_;

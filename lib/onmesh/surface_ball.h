@@ -1,6 +1,7 @@
 // Surface inside a ball: what is close in space *and* on the surface.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "onmesh/triangle_mesh.h"
@@ -10,7 +11,8 @@ namespace onmesh {
 /// Finds the faces that a ball around a surface point meets in the piece of surface that contains
 /// the point: the other side of a thin sheet is in the ball, but not in that piece. Works on any
 /// triangle complex: faces are joined across edges of any number of faces and at vertices.
-/// Not for concurrent use: a query leaves its marks in the object.
+/// Not for concurrent use, since a query leaves its marks in the object; copies share what does not
+/// change, so each thread may have one.
 class SurfaceBall {
  public:
   /// \pre mesh is welded; it must outlive this
@@ -27,13 +29,17 @@ class SurfaceBall {
   bool found(Index face) const { return face_marks_[face] == mark_; }
 
  private:
+  struct Joins {
+    std::vector<Index> corner_edges;              // 3 per face: edge from corner k to k + 1
+    std::vector<Index> edge_offsets, edge_faces;  // faces of each edge
+    std::vector<Index> vertex_offsets, vertex_faces;
+  };
+  static Joins make_joins(const TriangleMesh& mesh);
   void add(Index face);
   void start_marks();
 
-  const TriangleMesh& mesh_;
-  std::vector<Index> corner_edges_;               // 3 per face: edge from corner k to k + 1
-  std::vector<Index> edge_offsets_, edge_faces_;  // faces of each edge
-  std::vector<Index> vertex_offsets_, vertex_faces_;
+  const TriangleMesh* mesh_;
+  std::shared_ptr<const Joins> joins_;
   std::vector<Index> face_marks_, edge_marks_, vertex_marks_;  // == mark_: seen by the last find()
   Index mark_ = 0;
   std::vector<Index> result_;

@@ -123,9 +123,8 @@ std::pair<std::int64_t, std::int64_t> PixelTriangle::columns(std::int64_t row,
   return {std::int64_t(std::floor(left + tolerance)), std::int64_t(std::ceil(right - tolerance))};
 }
 
-double PixelTriangle::area_in(std::int64_t x, std::int64_t y) const {
-  // Clip against the square's four sides, coordinates relative to the square's corner.
-  std::array<Vec2, 8> polygon, next;
+std::size_t PixelTriangle::clip(std::int64_t x, std::int64_t y, Polygon& polygon) const {
+  Polygon next;
   std::size_t size = 3;
   const Vec2 corner{double(x), double(y)};
   for (std::size_t k = 0; k < 3; ++k) polygon[k] = corners[k] - corner;
@@ -142,9 +141,23 @@ double PixelTriangle::area_in(std::int64_t x, std::int64_t y) const {
     std::swap(polygon, next);
     size = kept;
   }
+  return size;
+}
+
+double PixelTriangle::area_in(std::int64_t x, std::int64_t y) const {
+  Polygon polygon;
+  const std::size_t size = clip(x, y, polygon);
   double twice = 0;
   for (std::size_t i = 0; i < size; ++i) twice += cross(polygon[i], polygon[(i + 1) % size]);
   return std::abs(twice) / 2;
+}
+
+Vec2 PixelTriangle::point_in(std::int64_t x, std::int64_t y) const {
+  Polygon polygon;
+  const std::size_t size = clip(x, y, polygon);
+  Vec2 sum = Vec2::Zero();
+  for (std::size_t i = 0; i < size; ++i) sum += polygon[i];
+  return Vec2(double(x), double(y)) + sum / double(size);
 }
 
 UvNeighbours::UvNeighbours(const TriangleMesh& mesh, const std::vector<bool>& used)

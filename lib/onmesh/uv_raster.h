@@ -61,6 +61,14 @@ struct PixelTriangle {
   std::pair<std::int64_t, std::int64_t> columns(std::int64_t row, double tolerance) const;
   /// Area within the texel's square.
   double area_in(std::int64_t x, std::int64_t y) const;
+  /// A point of the triangle within the texel's square, in its inside if they overlap.
+  /// \pre they meet
+  Vec2 point_in(std::int64_t x, std::int64_t y) const;
+
+ private:
+  using Polygon = std::array<Vec2, 8>;
+  /// Clip to the texel's square, coordinates relative to the square's corner; returns the size.
+  std::size_t clip(std::int64_t x, std::int64_t y, Polygon& polygon) const;
 };
 
 Vec2 to_pixels(const Vec2& uv, int width, int height);
