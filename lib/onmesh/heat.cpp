@@ -5,8 +5,8 @@
 // - The patch is split 1 -> 4 (intrinsically: edge lengths halve), which quarters the time step t.
 // - Its error is first order in sqrt(t), so the divergence is extrapolated from t and 4 t:
 //   2 div(t) - div(4 t). Both are linear up to the one Poisson solve, so that costs one heat solve.
-// - The near field, two rings of nodes, comes from the unfolding march on the same complex, which
-//   also fixes the additive constant.
+// - The near field comes from the unfolding march on the same complex, to which the rest is fitted
+//   along every ray (heat_calibration.h).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "onmesh/heat.cpp"
 #include <hwy/foreach_target.h>
@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "onmesh/heat.h"
+#include "onmesh/heat_bridges.h"
 #include "onmesh/heat_calibration.h"
 #include "onmesh/heat_system.h"
 
@@ -175,7 +176,10 @@ class Heat final : public DistanceBackend {
   std::string_view name() const override { return "heat"; }
   double margin(double, double longest_edge) const override { return heat::margin(longest_edge); }
   void fill(const Patch& patch, double reach, DistanceTable& table) const override {
-    heat::fill(patch, patch, {}, reach, table);
+    if (patch.bridge_faces == 0) return heat::fill(patch, patch, {}, reach, table);
+    const Patch surface = surface_of(patch);
+    heat::fill(surface, surface, {}, reach, table);
+    cross_bridges(surface, patch, reach, table);
   }
 };
 
@@ -200,8 +204,7 @@ void fill(const Patch& near, const Patch& flow, const std::vector<float>& weight
         phi[node] = system.component[node] == system.component[source]
                         ? solver.value(node, lane)
                         : std::numeric_limits<double>::infinity();
-      calibration.complete(source, phi,
-                           table.squared.data() + std::size_t(source) * table.columns);
+      calibration.complete(source, phi, table.squared.data() + std::size_t(source) * table.columns);
     }
   }
 }

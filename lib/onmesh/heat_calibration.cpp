@@ -15,8 +15,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Calibration::Calibration(const Patch& near, double reach)
     : nodes_(Index(near.nodes.size())),
-      share_reach_(kNearShare * reach),
-      near_reach_(std::min(reach, std::max(2 * near.longest_edge, share_reach_))),
+      share_(kNearShare * std::max(0.0, reach - 2 * near.longest_edge)),
+      near_reach_(std::min(reach, std::max(2 * near.longest_edge, share_))),
       limit_(reach + near.longest_edge),
       offsets_(near.nodes.size() + 1, 0),
       distance_(near.nodes.size(), kInfinity),
@@ -41,7 +41,7 @@ Calibration::Calibration(const Patch& near, double reach)
     }
 }
 
-// The near field's nodes: at most two edges from the source, or within its share of the reach.
+// The near field's nodes: at most two edges from the source, or within its share of the kernel.
 void Calibration::mark_near(Index source, const float* row) {
   near_.assign(1, source);
   distance_[source] = 0;
@@ -57,7 +57,7 @@ void Calibration::mark_near(Index source, const float* row) {
         add(steps_[s].i);
         add(steps_[s].j);
       }
-  const double squared = share_reach_ * share_reach_;
+  const double squared = share_ * share_;
   for (Index node = 0; node < nodes_; ++node)
     if (row[node] <= squared) add(node);
 }
@@ -108,9 +108,8 @@ void Calibration::complete(Index source, const std::vector<double>& phi, float* 
     // Corrections are far smaller than the edge that the limit leaves.
     if (phi[node] + mean_ <= limit_) far_.push_back(node);
   }
-  std::sort(far_.begin(), far_.end(), [&](Index a, Index b) {
-    return std::pair(phi[a], a) < std::pair(phi[b], b);
-  });
+  std::sort(far_.begin(), far_.end(),
+            [&](Index a, Index b) { return std::pair(phi[a], a) < std::pair(phi[b], b); });
   for (const Index node : far_) {
     correction_[node] = carry_on(node);
     distance_[node] = std::max(0.0, phi[node] + correction_[node]);

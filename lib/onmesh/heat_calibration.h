@@ -7,9 +7,10 @@
 
 namespace onmesh::heat {
 
-/// How far the near field reaches at least, as a share of the reach: about what two rings of nodes
-/// cover when the spacing is sigma and the reach 2.5 sigma. A fixed share, so that finer nodes do
-/// not leave more of the kernel to heat.
+/// How far the near field goes at least, as a share of the kernel's radius, which is two edges less
+/// than the reach of the tables (filter_patches.cpp): about what two rings of nodes cover where the
+/// spacing is sigma. A fixed share, so that finer nodes leave no more of the kernel to heat, and
+/// err less.
 inline constexpr double kNearShare = 0.8;
 
 /// The heat method's solution is a distance up to a constant, and to an error that depends on the
@@ -30,7 +31,7 @@ class Calibration {
   /// Complete one row of the table.
   /// \param phi per node of the patch: the solution, in mesh units
   /// \param row squared distances, marched as far as near_reach(); beyond the near field (two rings
-  /// of nodes, or kNearShare of the reach) entries are replaced: kUnreachable beyond an edge more
+  /// of nodes, or kNearShare of the kernel) entries are replaced: kUnreachable beyond an edge more
   /// than reach
   void complete(Index source, const std::vector<double>& phi, float* row);
 
@@ -46,7 +47,7 @@ class Calibration {
   double carry_on(Index node) const;
 
   Index nodes_ = 0;
-  double share_reach_ = 0, near_reach_ = 0, limit_ = 0;
+  double share_ = 0, near_reach_ = 0, limit_ = 0;
   std::vector<Index> offsets_;  // CSR of steps by target
   std::vector<Step> steps_;
   // Per node, for the source at hand. Corrections are added to phi; infinite if not known yet.

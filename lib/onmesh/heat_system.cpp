@@ -144,13 +144,13 @@ System make_system(const Patch& patch, const std::vector<float>& weights, double
   std::vector<double> border;
   const double spacing = split_faces(patch, weights, system, border);
   // sqrt(t) is .84 node spacings at least: below, the mesh does not resolve the front. What the
-  // front then still has of the mesh's directions is fitted (heat_calibration.h), the better the
-  // less there is of it, so farther out sqrt(t) is a mean of spacing and reach; above 1.7 spacings,
-  // curvature bends the front more. Far out it grows so that exp(-reach / sqrt(t)) stays a float.
+  // front then still has of the mesh's directions bends all distances alike, so farther out it is a
+  // mean of spacing and reach; above 1.7 spacings, curvature bends it more. Far out it grows so
+  // that exp(-reach / sqrt(t)) stays a float.
   constexpr double kDecay = 60;
   const double edge = 2 * spacing;
   double root_time =
-      std::clamp(0.6 * std::sqrt(edge * reach / system.scale), 0.84 * edge, 1.7 * edge);
+      std::clamp(0.4 * std::sqrt(edge * reach / system.scale), 0.84 * edge, 1.7 * edge);
   if (reach > kDecay * root_time * system.scale)
     root_time =
         std::max(root_time, std::min(reach / system.scale, 2.0 * most_hops(patch)) / kDecay);
