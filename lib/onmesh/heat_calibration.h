@@ -40,7 +40,7 @@ class Calibration {
   struct Step {
     Index i, j;
     double edge, half_inverse, x, y;  // half_inverse: 1 / (2 edge)
-    double to_i, to_j;  // from the target
+    double to_i, to_j;                // from the target
   };
 
   void mark_near(Index source, const float* row);
