@@ -2,10 +2,10 @@
 // 2020, section 5.7): the nodes with their normals, joined by local Delaunay triangulations.
 //
 // A patch becomes another complex on the same nodes, which the solver of mesh heat takes as its
-// own. Of the patch's faces only their adjacency counts: it says which points are neighbours, so
-// that close sheets do not leak, and where sheets begin and end. Shapes and lengths come from
-// positions and normals, or, where a fold lies between, from the patch's edges. Bridges join no
-// points: the march over the complex goes across them.
+// own. Of the patch's faces only adjacency and the lengths of their edges count. Adjacency says
+// which points are neighbours, so that close sheets do not leak, and where sheets begin and end.
+// Shapes come from positions and normals, and so do lengths between points that are not adjacent.
+// Bridges join no points: the march over the complex goes across them.
 #include "onmesh/cloud_complex.h"
 #include "onmesh/distance.h"
 #include "onmesh/heat.h"

@@ -234,10 +234,10 @@ Sight look(const Points& points, Index from, Index to, int turn) {
 
 double edge_length(const Points& points, Index from, Index to, int turn) {
   if (from > to) std::swap(from, to);
-  const Sight sight = look(points, from, to, turn);
-  if (sight.valid) return sight.length;
   for (Index s = points.offsets[from]; s < points.offsets[from + 1]; ++s)
     if (points.spokes[s].point == to) return points.spokes[s].length;
+  const Sight sight = look(points, from, to, turn);
+  if (sight.valid) return sight.length;
   return (points.position[from] - points.position[to]).norm();
 }
 

@@ -60,9 +60,9 @@ struct Sight {
 /// the straight line is long. \param turn of the other point's normal
 Sight look(const Points& points, Index from, Index to, int turn);
 
-/// The length of an edge of the cloud's triangles: of the sight. Where the points do not see each
-/// other, that of the patch's edge if they are adjacent (the straight line would cut short what is
-/// folded between them), else of the straight line. The same in both directions.
+/// The length of an edge of the cloud's triangles. Of adjacent points that of the patch's edge (a
+/// sight would cut short what is folded more than once between them), else of the sight, or of the
+/// straight line if there is none. The same in both directions.
 double edge_length(const Points& points, Index from, Index to, int turn);
 
 }  // namespace onmesh::cloud
