@@ -1,17 +1,15 @@
-// The point-cloud heat back end: distances, and the complex that it builds of the points.
+// The point-cloud heat back end: its distances.
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <random>
 
 #include "brute_force.h"
 #include "distance_errors.h"
-#include "onmesh/cloud_complex.h"
-#include "onmesh/cloud_cover.h"
 #include "onmesh/filter_patches.h"
 #include "onmesh/pattern.h"
+#include "onmesh/refine_soup.h"
 #include "onmesh/shapes.h"
 #include "simple_shapes.h"
 
@@ -27,20 +25,6 @@ DistanceTable cloud_table(const TriangleMesh& mesh, double reach) {
 
 std::function<double(Index, Index)> straight(const TriangleMesh& mesh) {
   return [&mesh](Index a, Index b) { return (mesh.positions[a] - mesh.positions[b]).norm(); };
-}
-
-cloud::Complex complex_of(const TriangleMesh& mesh) {
-  const NodeMesh nodes = make_node_mesh(mesh);
-  return cloud::make_complex(whole(nodes), cloud::make_node_geometry(mesh, nodes));
-}
-
-double area_of(const Patch& complex, const std::vector<float>& weights = {}) {
-  double area = 0;
-  for (std::size_t f = 0; f < complex.lengths.size(); ++f) {
-    const auto& l = complex.lengths[f];
-    area += triangle_area(l[0], l[1], l[2]) * (weights.empty() ? 1.0 : double(weights[f]));
-  }
-  return area;
 }
 
 // Every vertex of a page's grid on the book's other pages and its own, by unfolding at the spine.
@@ -59,30 +43,34 @@ TEST_CASE("cloud agrees with exact distances on manifold shapes", "[cloud]") {
     double bound;  // of the mean error, in mean edge lengths: sigma at the default spacing
   };
   for (const Case& c :
-       {Case{"sphere", icosphere(3), 0.003}, Case{"torus", torus(40, 16), 0.01},
-        Case{"cube", cube(6), 0.03}, Case{"cone", cone(270, 24, 12), 0.03},
-        Case{"cylinder", cylinder(24, 12, 2.4, 1.2), 0.02}, Case{"saddle", saddle(14), 0.02},
-        Case{"blob", blob(3), 0.004}, Case{"bumpy", make_blob(3, 1), 0.005}}) {
+       {Case{"sphere", icosphere(3), 0.001}, Case{"torus", torus(40, 16), 0.003},
+        Case{"cube", cube(6), 0.006}, Case{"cone", cone(270, 24, 12), 0.013},
+        Case{"cylinder", cylinder(24, 12, 2.4, 1.2), 0.005}, Case{"saddle", saddle(14), 0.006},
+        Case{"blob", blob(3), 0.0015}, Case{"bumpy", make_blob(3, 1), 0.002}}) {
     const NodeMesh nodes = make_node_mesh(c.mesh);
     const Errors errors = against_exact(*make_cloud(c.mesh, nodes), c.mesh, 2.5, 29);
     CAPTURE(c.name, errors.mean, errors.p99, errors.max);
     CHECK(errors.count > 100);
     CHECK(errors.mean < c.bound);
-    CHECK(errors.p99 < 0.2);
+    CHECK(errors.p99 < 0.1);
   }
 }
 
-TEST_CASE("cloud distances converge in the outer part of the kernel", "[cloud]") {
-  // From 2 sigma on: what is nearer belongs, at the widest spacing, to the marched near field.
-  const auto mean_error = [](const TriangleMesh& mesh, double sigma) {
+TEST_CASE("cloud distances converge with the spacing", "[cloud]") {
+  // Means over the kernel and over its outer part, which is heat's alone, in units of sigma.
+  struct Means {
+    double kernel = 0, outer = 0;
+  };
+  const auto mean_errors = [](const TriangleMesh& mesh, double sigma) {
     const NodeMesh nodes = make_node_mesh(mesh);
-    const double radius = 2.5 * sigma;
+    // As the filter asks: its tables reach two edges farther than the kernel.
+    const double radius = 2.5 * sigma, reach = radius + 2 * nodes.longest_edge();
     const auto backend = make_cloud(mesh, nodes), exact = make_exact(mesh, nodes);
     const auto groups = partition_faces(nodes, std::vector<double>(nodes.faces.size(), 1), 600);
     const Patch patch = grow_patch(nodes, groups[groups.size() / 2],
-                                   radius + backend->margin(radius, nodes.longest_edge()));
-    const DistanceTable table = fill(*backend, patch, radius);
-    std::vector<double> errors;
+                                   reach + backend->margin(reach, nodes.longest_edge()));
+    const DistanceTable table = fill(*backend, patch, reach);
+    std::vector<double> errors, outer;
     for (Index i = 0; i < table.rows; i += table.rows / 16) {
       Patch one;
       one.core_nodes = 1;
@@ -91,25 +79,30 @@ TEST_CASE("cloud distances converge in the outer part of the kernel", "[cloud]")
       const DistanceTable truth = fill(*exact, one, radius);
       for (Index j = 0; j < table.columns; ++j) {
         const double d = std::sqrt(double(truth.row(0)[j + 1]));
-        if (d > 2 * sigma && d < radius)
-          errors.push_back(std::abs(std::sqrt(double(table.row(i)[j])) - d) / sigma);
+        if (d > radius) continue;
+        errors.push_back(std::abs(std::sqrt(double(table.row(i)[j])) - d) / sigma);
+        if (d > 2 * sigma) outer.push_back(errors.back());
       }
     }
-    return summarise(errors).mean;
+    return Means{summarise(errors).mean, summarise(outer).mean};
   };
   for (const char* const shape : {"sphere", "torus", "blob"}) {
-    double before = 0.05, sigma = 0;
+    Means before{0.002, 0.01};
+    double sigma = 0, first = 0;
     for (const int c : {1, 2, 4}) {
       const int level = c == 1 ? 3 : c == 2 ? 4 : 5;
       const TriangleMesh mesh = shape[0] == 's'   ? icosphere(level)
                                 : shape[0] == 't' ? torus(40 * c, 16 * c)
                                                   : blob(level);
       if (c == 1) sigma = mean_edge(make_node_mesh(mesh));
-      const double error = mean_error(mesh, sigma);
-      CAPTURE(shape, c, error, before);
-      CHECK(error < before);
-      before = error;
+      const Means means = mean_errors(mesh, sigma);
+      CAPTURE(shape, c, means.kernel, before.kernel, means.outer, before.outer);
+      CHECK(means.kernel < before.kernel);
+      CHECK(means.outer < 0.7 * before.outer);
+      before = means;
+      if (c == 1) first = means.kernel;
     }
+    CHECK(before.kernel < 0.6 * first);
   }
 }
 
@@ -122,8 +115,8 @@ TEST_CASE("a book's distances unfold at the spine, by cloud", "[cloud]") {
     };
     const Errors errors = compare(cloud_table(mesh, 2.5 * h), 2.5 * h, truth);
     CAPTURE(angle, errors.mean / h, errors.max / h);
-    CHECK(errors.mean < 0.05 * h);
-    CHECK(errors.max < 0.5 * h);
+    CHECK(errors.mean < 0.012 * h);
+    CHECK(errors.max < 0.3 * h);
   }
 }
 
@@ -170,12 +163,21 @@ TEST_CASE("cloud filters a book close to the definition", "[cloud][accuracy]") {
     const BruteForce error =
         against_brute_force(mesh, texture, result, kind, sigma, radius, 0.2, 200, truth);
     CAPTURE(bilateral, error.psnr);
-    CHECK(error.psnr > (bilateral ? 65 : 50));
+    CHECK(error.psnr > (bilateral ? 76 : 67));
   }
 }
 
 TEST_CASE("cloud filters close to the definition", "[cloud][accuracy]") {
-  for (const TriangleMesh& mesh : {make_cube(1), make_sphere(3), make_folded_sheet(8, 2, 1, 100)}) {
+  struct Case {
+    const char* name;
+    TriangleMesh mesh;
+    double least;  // dB
+  };
+  // The sheet's leaves are two texels apart, less than the nodes are.
+  for (const auto& [name, mesh, least] :
+       {Case{"cube", make_cube(1), 74}, Case{"sphere", make_sphere(3), 74},
+        Case{"folded", make_folded_sheet(8, 2, 1, 100), 74},
+        Case{"U-sheet", make_u_sheet(0.5, 1, 2.0 / 128), 74}}) {
     const Image texture = make_texture(128, 128, Pattern::checker, 0.3, 7);
     FilterOptions options;
     options.sigma_spatial = {6, Length::Unit::texel};
@@ -190,7 +192,8 @@ TEST_CASE("cloud filters close to the definition", "[cloud][accuracy]") {
         [&](const SurfacePoint& source, const auto& targets) {
           return exact.distances(source, targets);
         });
-    CHECK(error.psnr > 60);
+    CAPTURE(name, error.psnr);
+    CHECK(error.psnr > least);
   }
 }
 
@@ -215,35 +218,29 @@ TEST_CASE("the paths of a bow tie lead through its knot", "[cloud]") {
   const double h = mean_edge(make_node_mesh(mesh));
   const Errors errors = compare(cloud_table(mesh, 2.5 * h), 2.5 * h, truth);
   CAPTURE(errors.mean / h, errors.max / h);
-  CHECK(errors.mean < 0.05 * h);
-  CHECK(errors.max < 0.5 * h);
+  CHECK(errors.mean < 0.012 * h);
+  CHECK(errors.max < 0.3 * h);
 }
 
-TEST_CASE("a Moebius strip has distances across its seam of orientation", "[cloud]") {
-  const int around = 60, across = 6;
-  TriangleMesh mesh;
-  for (int i = 0; i < around; ++i)
-    for (int j = 0; j <= across; ++j) {
-      const double a = 2 * kPi * i / around, w = 0.3 * (2.0 * j / across - 1);
-      const double r = 1 + w * std::cos(a / 2);
-      mesh.positions.emplace_back(r * std::cos(a), r * std::sin(a), w * std::sin(a / 2));
-    }
-  const auto vertex = [&](int i, int j) -> Index {
-    return i < around ? Index(i * (across + 1) + j) : Index(across - j);
+TEST_CASE("a Moebius strip has the distances of its unrolled double cover, by cloud", "[cloud]") {
+  const double length = 8, h = 0.2;
+  const TriangleMesh mesh = make_moebius(4, length, 1);
+  RefineOptions options;
+  options.spacing = h;
+  const NodeMesh nodes = refine_soup(mesh, options).nodes;
+  const auto flat = [&](Index i) {
+    return Vec2((mesh.uv(nodes.nodes[i]) - Vec2(0.5, 0.5)) * length / kMoebiusScale);
   };
-  for (int i = 0; i < around; ++i)
-    for (int j = 0; j < across; ++j) {
-      mesh.faces.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
-      mesh.faces.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
-    }
-  const NodeMesh nodes = make_node_mesh(mesh);
-  const double h = mean_edge(nodes);
-  const DistanceTable march = fill(*make_unfold(), whole(nodes), 4 * h);
-  const auto truth = [&](Index a, Index b) { return std::sqrt(double(march.row(a)[b])); };
-  const Errors errors = compare(cloud_table(mesh, 2.5 * h), 2.5 * h, truth);
+  const auto truth = [&](Index a, Index b) {
+    const Vec2 x = flat(a), y = flat(b), turned(y.x(), -y.y());
+    return std::min({(x - y).norm(), (x - turned - Vec2(length, 0)).norm(),
+                     (x - turned + Vec2(length, 0)).norm()});
+  };
+  const Errors errors =
+      compare(fill(*make_cloud(mesh, nodes), whole(nodes), 2.5 * h), 2.5 * h, truth);
   CAPTURE(errors.mean / h, errors.max / h);
-  CHECK(errors.mean < 0.05 * h);
-  CHECK(errors.max < 0.5 * h);
+  CHECK(errors.mean < 0.012 * h);
+  CHECK(errors.max < 0.3 * h);
 }
 
 TEST_CASE("cloud does not care how faces are wound", "[cloud]") {
@@ -290,8 +287,8 @@ TEST_CASE("a sheet folded to half the spacing has the distances of the flat one"
     const double h = mean_edge(nodes);
     const Errors errors = compare(cloud_table(folded, 2.5 * h), 2.5 * h, truth);
     CAPTURE(segments, errors.mean / h, errors.max / h);
-    CHECK(errors.mean < 0.05 * h);
-    CHECK(errors.max < 0.5 * h);
+    CHECK(errors.mean < 0.012 * h);
+    CHECK(errors.max < 0.3 * h);
   }
 }
 
@@ -305,8 +302,8 @@ TEST_CASE("cloud makes good distances of bad triangles", "[cloud]") {
     const Errors cloud = compare(cloud_table(mesh, 2.5 * h), 2.5 * h, straight(mesh));
     const Errors heat = compare(fill(*make_heat(), whole(nodes), 2.5 * h), 2.5 * h, straight(mesh));
     CAPTURE(cloud.mean / h, heat.mean / h);
-    CHECK(cloud.mean < 0.05 * h);
-    CHECK(cloud.mean < 0.5 * heat.mean);
+    CHECK(cloud.mean < 0.04 * h);
+    CHECK(cloud.mean < 0.15 * heat.mean);
   }
 }
 
@@ -368,7 +365,7 @@ TEST_CASE("what faces join is reached over any set of faces", "[cloud]") {
       REQUIRE(table.row(i)[j] != kUnreachable);
       worst = std::max(worst, std::sqrt(double(table.row(i)[j])));
     }
-  CHECK(worst < 5);
+  CHECK(worst < 3.5);
 }
 
 TEST_CASE("a patch of the cloud gives the distances that the whole gives", "[cloud]") {
@@ -390,103 +387,7 @@ TEST_CASE("a patch of the cloud gives the distances that the whole gives", "[clo
         worst = std::max(worst, std::abs(std::sqrt(double(table.row(i)[j])) - std::sqrt(truth)));
       }
   }
-  CHECK(worst < 0.05 * h);
-}
-
-TEST_CASE("several sheets at one node are several points", "[cloud]") {
-  const TriangleMesh mesh = make_book(4, 40);
-  const NodeMesh nodes = make_node_mesh(mesh);
-  const cloud::Points points =
-      cloud::make_points(whole(nodes), cloud::make_node_geometry(mesh, nodes));
-  std::map<Index, int> count;
-  for (Index p = 0; p < points.size(); ++p) {
-    ++count[points.node[p]];
-    const Vec3& at = points.position[p];
-    CHECK(points.normal[p].norm() == Approx(1));
-    CHECK(points.is_flat[p]);
-    // In the plane of its page.
-    CHECK(std::abs(points.normal[p].y()) < 1e-12);
-    CHECK(std::abs(points.normal[p].dot(at)) < 1e-12);
-  }
-  for (const auto& [node, several] : count)
-    CHECK(several ==
-          (std::hypot(mesh.positions[node].x(), mesh.positions[node].z()) < 1e-9 ? 3 : 1));
-}
-
-TEST_CASE("points on both sides of a crease see each other over it", "[cloud]") {
-  cloud::Points points;
-  const double bend = 2.1;  // radians between the planes z = 0, x < 0 and the one that leaves x = 0
-  const Vec3 down(std::cos(bend), 0, -std::sin(bend));
-  points.position = {Vec3(-0.4, 0, 0), 0.7 * down + Vec3(0, 0.5, 0)};
-  points.normal = {Vec3(0, 0, 1), Vec3(std::sin(bend), 0, std::cos(bend))};
-  points.is_flat = {1, 1};
-  const cloud::Sight there = look(points, 0, 1, 1), back = look(points, 1, 0, 1);
-  REQUIRE(there.valid);
-  CHECK(there.length == Approx(std::hypot(1.1, 0.5)));
-  CHECK((there.offset - Vec3(1.1, 0.5, 0)).norm() < 1e-12);
-  CHECK(back.length == Approx(there.length));
-  points.normal[1] *= -1;
-  CHECK(look(points, 0, 1, -1).length == Approx(there.length));
-  points.is_flat[1] = 0;  // a rounded surface: straight
-  points.normal[1] = Vec3(0, 0, 1);
-  CHECK(look(points, 0, 1, 1).length == Approx((points.position[1] - points.position[0]).norm()));
-}
-
-TEST_CASE("the cloud's triangles cover the surface once", "[cloud]") {
-  for (const TriangleMesh& mesh :
-       {plane(12, 10, 1.2, 1, 0.35), plane(12, 10, 12, 1, 0.3), icosphere(3), make_book(6), cube(4),
-        make_folded_sheet(12, 2, 1, 160, 8)}) {
-    const cloud::Complex complex = complex_of(mesh);
-    double area = 0;
-    for (Index f = 0; f < mesh.faces.size(); ++f) area += mesh.face_area(f);
-    CHECK(complex.triangles.corners.size() == mesh.faces.size());
-    CHECK(area_of(complex.triangles) == Approx(area).epsilon(1e-9));
-    CHECK(area_of(complex.cover, complex.weights) == Approx(area).epsilon(1e-9));
-  }
-}
-
-TEST_CASE("the Laplacian of the tufted cover is positive and sees linear functions", "[cloud]") {
-  // A sheared grid, far from Delaunay, with a second sheet on its middle line.
-  const int n = 16;
-  TriangleMesh mesh = plane(n, n, 1, 1);
-  for (Vec3& p : mesh.positions) p.x() += 1.2 * p.y();
-  const auto middle = [&](int j) { return Index(n / 2 + (n + 1) * j); };
-  const Index below = Index(mesh.positions.size());
-  for (int j = 0; j <= n; ++j)
-    mesh.positions.push_back(mesh.positions[middle(j)] - Vec3(0, 0, 0.02));
-  for (Index j = 0; j < Index(n); ++j) {
-    mesh.faces.push_back({middle(j), middle(j + 1), below + j});
-    mesh.faces.push_back({below + j, middle(j + 1), below + j + 1});
-  }
-  Patch complex = whole(make_node_mesh(mesh));
-  const std::size_t faces = complex.corners.size();
-  const double area = area_of(complex);
-  const std::vector<float> weights = cloud::make_delaunay(complex);
-  REQUIRE(weights.size() == complex.corners.size());
-  CHECK(complex.corners.size() > faces);
-  CHECK(area_of(complex, weights) == Approx(area));
-
-  // The Laplacian of the positions, by cotangents, and its entries between different nodes.
-  std::vector<Vec3> sum(mesh.positions.size(), Vec3::Zero());
-  std::map<std::pair<Index, Index>, double> entries;
-  for (std::size_t f = 0; f < complex.corners.size(); ++f) {
-    const auto& c = complex.corners[f];
-    const auto& l = complex.lengths[f];
-    for (int k = 0; k < 3; ++k) {
-      const double a = l[(k + 1) % 3], b = l[(k + 2) % 3];
-      const double cotangent =
-          weights[f] * (a * a + b * b - l[k] * l[k]) / (8 * triangle_area(l[0], l[1], l[2]));
-      const Index i = c[k], j = c[(k + 1) % 3];
-      sum[i] += cotangent * (mesh.positions[j] - mesh.positions[i]);
-      sum[j] += cotangent * (mesh.positions[i] - mesh.positions[j]);
-      if (i != j) entries[std::minmax(i, j)] += cotangent;
-    }
-  }
-  for (const auto& [ends, entry] : entries) CHECK(entry > -1e-6);
-  // Inside the sheet, away from its border and from the second sheet.
-  for (int i = 3; i < n - 2; ++i)
-    for (int j = 3; j < n - 2; ++j)
-      if (std::abs(i - n / 2) > 2) CHECK(sum[i + (n + 1) * j].norm() < 1e-6);
+  CHECK(worst < 0.01 * h);
 }
 
 }  // namespace onmesh

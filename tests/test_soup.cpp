@@ -22,21 +22,21 @@ bool same_values(const Image& a, const Image& b) {
          std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
 }
 
-FilterOptions options_for(FilterKind kind, double sigma) {
+FilterOptions options_for(FilterKind kind, double sigma,
+                          DistanceMethod method = DistanceMethod::unfold) {
   FilterOptions options;
   options.kind = kind;
   options.sigma_spatial = {sigma, Length::Unit::mesh};
   options.sigma_range = 0.2;
-  options.distance = DistanceMethod::unfold;
+  options.distance = method;
   return options;
 }
 
-/// Filter with `unfold` and compare with the definition. \return dB
+/// Filter and compare with the definition. \return dB
 double psnr_against(const TriangleMesh& mesh, const Image& texture, FilterKind kind, double sigma,
                     const Distances& distances, FilterReport* report = nullptr,
-                    std::optional<Length> bridge = {}) {
-  FilterOptions options = options_for(kind, sigma);
-  options.bridge = bridge;
+                    DistanceMethod method = DistanceMethod::unfold) {
+  const FilterOptions options = options_for(kind, sigma, method);
   const Image result = filter(mesh, texture, options, report);
   const double radius = sigma * (kind == FilterKind::bilateral ? 2.5 : 3.0);
   return against_brute_force(mesh, texture, result, kind, sigma, radius, options.sigma_range, 500,
@@ -105,23 +105,32 @@ TEST_CASE("the report says that and why a mesh is bisected", "[soup]") {
                     "faces); use unfold");
 }
 
+/// On make_moebius(): the shortest way on the unrolled double cover.
+Distances moebius_distances(const TriangleMesh& strip, double length) {
+  return [&strip, length](const SurfacePoint& source, const std::vector<SurfacePoint>& targets) {
+    const double scale = kMoebiusScale / length;
+    std::vector<double> result;
+    const Vec2 x = (strip.uv(source) - Vec2(0.5, 0.5)) / scale;
+    for (const SurfacePoint& t : targets) {
+      const Vec2 y = (strip.uv(t) - Vec2(0.5, 0.5)) / scale, turned(y.x(), -y.y());
+      result.push_back(std::min({(x - y).norm(), (x - turned - Vec2(length, 0)).norm(),
+                                 (x - turned + Vec2(length, 0)).norm()}));
+    }
+    return result;
+  };
+}
+
+/// On make_bow_tie(): from one half to the other through the origin.
+double bow_tie_distance(const Vec3& a, const Vec3& b) {
+  return (a.x() < 0) == (b.x() < 0) ? (a - b).norm() : a.norm() + b.norm();
+}
+
 TEST_CASE("a Moebius strip filters as its unrolled double cover", "[soup]") {
   const Image texture = noise_image(256);
   const double length = 8, width = 1;
   for (const int segments : {1, 3}) {
     const TriangleMesh strip = make_moebius(segments, length, width);
-    const double scale = kMoebiusScale / length;
-    const Distances distances = [&](const SurfacePoint& source,
-                                    const std::vector<SurfacePoint>& targets) {
-      std::vector<double> result;
-      const Vec2 x = (strip.uv(source) - Vec2(0.5, 0.5)) / scale;
-      for (const SurfacePoint& t : targets) {
-        const Vec2 y = (strip.uv(t) - Vec2(0.5, 0.5)) / scale, turned(y.x(), -y.y());
-        result.push_back(std::min({(x - y).norm(), (x - turned - Vec2(length, 0)).norm(),
-                                   (x - turned + Vec2(length, 0)).norm()}));
-      }
-      return result;
-    };
+    const Distances distances = moebius_distances(strip, length);
     for (const FilterKind kind : {FilterKind::bilateral, FilterKind::gaussian}) {
       INFO(segments);
       CHECK(psnr_against(strip, texture, kind, 0.2, distances) >= 120);
@@ -142,17 +151,41 @@ TEST_CASE("a constant texture stays constant on a Moebius strip, gutter included
 TEST_CASE("paths between the halves of a bow tie lead through their common corner", "[soup]") {
   const Image texture = noise_image(128);
   const TriangleMesh tie = make_bow_tie(2);
-  const auto distance = [](const Vec3& a, const Vec3& b) {
-    return (a.x() < 0) == (b.x() < 0) ? (a - b).norm() : a.norm() + b.norm();
-  };
   for (const FilterKind kind : {FilterKind::bilateral, FilterKind::gaussian})
-    CHECK(psnr_against(tie, texture, kind, 0.15, by_positions(tie, distance)) >= 70);
+    CHECK(psnr_against(tie, texture, kind, 0.15, by_positions(tie, bow_tie_distance)) >= 70);
+}
+
+TEST_CASE("cloud filters soups close to their closed forms", "[soup][cloud]") {
+  const TriangleMesh book = make_book(1), strip = make_moebius(3), tie = make_bow_tie(2);
+  struct Case {
+    const char* name;
+    const TriangleMesh& mesh;
+    int texels;
+    double sigma;
+    Distances distances;
+    double gaussian, bilateral;  // least dB
+  };
+  for (const Case& c :
+       {Case{"book", book, 192, 0.15, by_positions(book, book_distance), 69, 76},
+        Case{"Moebius strip", strip, 256, 0.2, moebius_distances(strip, 8), 70, 73},
+        Case{"bow tie", tie, 128, 0.15, by_positions(tie, bow_tie_distance), 69, 76}}) {
+    const Image texture = noise_image(c.texels);
+    for (const FilterKind kind : {FilterKind::gaussian, FilterKind::bilateral}) {
+      FilterReport report;
+      const double psnr =
+          psnr_against(c.mesh, texture, kind, c.sigma, c.distances, &report, DistanceMethod::cloud);
+      CAPTURE(c.name, kind == FilterKind::gaussian, psnr);
+      CHECK(report.backend == "cloud");
+      CHECK(psnr >= (kind == FilterKind::gaussian ? c.gaussian : c.bilateral));
+    }
+  }
 }
 
 TEST_CASE("loose triangles filter like the mesh they were", "[soup]") {
   const Image texture = noise_image(128);
+  const auto method = GENERATE(DistanceMethod::unfold, DistanceMethod::cloud);
   for (const TriangleMesh& mesh : {make_cube(2), make_book(2)}) {
-    const FilterOptions options = options_for(FilterKind::bilateral, 0.2);
+    const FilterOptions options = options_for(FilterKind::bilateral, 0.2, method);
     FilterReport welded, loose;
     const Image a = filter(mesh, texture, options, &welded);
     const Image b = filter(loosen(mesh), texture, options, &loose);
@@ -279,6 +312,7 @@ TEST_CASE("no component influences another unless it is bridged", "[soup][bridge
   FilterOptions options = options_for(FilterKind::gaussian, 0.3);
   options.radius = Length{0.6, Length::Unit::mesh};
   options.samples = GENERATE(SampleKind::texel, SampleKind::poisson);
+  options.distance = GENERATE(DistanceMethod::unfold, DistanceMethod::cloud);
   CHECK(difference(chest, filter(chest, texture, options), filter(chest, other, options), 0) == 0);
   options.bridge = Length{0.1, Length::Unit::mesh};
   FilterReport report;
@@ -307,7 +341,9 @@ TEST_CASE("parallel sheets closer than the nodes do not leak into each other", "
     sheets.face_materials.push_back(kNone);
   }
   const Image texture = noise_image(64);
-  FilterOptions options = options_for(FilterKind::gaussian, 0.1);
+  FilterOptions options =
+      options_for(FilterKind::gaussian, 0.1,
+                  GENERATE(DistanceMethod::unfold, DistanceMethod::heat, DistanceMethod::cloud));
   options.node_spacing = Length{0.1, Length::Unit::mesh};
   const Image other = repaint(sheets, texture, 1);
   CHECK(difference(sheets, filter(sheets, texture, options), filter(sheets, other, options), 0) ==
@@ -325,7 +361,8 @@ TEST_CASE("parts without area and vertices without faces change nothing", "[soup
   dirty.positions.emplace_back(0.2, 0.2, 0.2);
   dirty.positions.emplace_back(7, 7, 7);
   const Image texture = noise_image(96);
-  const FilterOptions options = options_for(FilterKind::bilateral, 0.1);
+  const FilterOptions options = options_for(
+      FilterKind::bilateral, 0.1, GENERATE(DistanceMethod::unfold, DistanceMethod::cloud));
   FilterReport report;
   const Image result = filter(dirty, texture, options, &report);
   CHECK(same_values(result, filter(clean_mesh, texture, options)));

@@ -252,7 +252,11 @@ TEST_CASE("a bridge leads distances over to the other component", "[tools][dista
   CHECK(narrow["bridges"] == 0);
   CHECK(joined["bridges"] > 0);
   CHECK(joined["vertices_reached"] == joined["vertices"]);
-  CHECK(space.run(base + "0.06 --distance heat").code == 2);
+  for (const char* const method : {"heat", "cloud"}) {
+    const auto other = space.must(base + "0.06 --distance " + method).json();
+    CHECK(other["vertices_reached"] == joined["vertices_reached"]);
+  }
+  CHECK(space.run(base + "0.06 --distance exact").code == 2);
   CHECK(space.run(base + "0.06 --compare exact").code == 2);
   CHECK(space.run(base + "-1").code == 2);
   CHECK(space.run("filter m.obj -o o.png --bridge 0.06 --distance exact").code == 2);

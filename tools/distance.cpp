@@ -112,8 +112,8 @@ Request read_request(const po::variables_map& values) {
   if (request.bridge) {
     if (request.compare)
       throw UsageError("--bridge: exact distances know none, so not with --compare");
-    if (exact || request.method == DistanceMethod::heat)
-      throw UsageError("--bridge: not with --distance " + std::string(name_of(request.method)));
+    if (exact)
+      throw UsageError("--bridge: exact distances know none, so not with --distance exact");
     request.needs_atlas |= request.bridge->unit == Length::Unit::texel;
   }
   request.needs_nodes = !exact || request.compare || has(values, "nodes-ply");

@@ -2,12 +2,14 @@
 // 2020, section 5.7): the nodes with their normals, joined by local Delaunay triangulations.
 //
 // A patch becomes another complex on the same nodes, which the solver of mesh heat takes as its
-// own. Of the patch's faces only their adjacency counts: it says which points are neighbours, so
-// that close sheets do not leak, and where sheets begin and end. Shapes and lengths come from
-// positions and normals.
+// own. Of the patch's faces only adjacency and the lengths of their edges count. Adjacency says
+// which points are neighbours, so that close sheets do not leak, and where sheets begin and end.
+// Shapes come from positions and normals, and so do lengths between points that are not adjacent.
+// Bridges join no points: the march over the complex goes across them.
 #include "onmesh/cloud_complex.h"
 #include "onmesh/distance.h"
 #include "onmesh/heat.h"
+#include "onmesh/heat_bridges.h"
 
 namespace onmesh {
 namespace cloud {
@@ -24,8 +26,11 @@ class Cloud final : public DistanceBackend {
     return heat::margin(longest_edge) + longest_edge;
   }
   void fill(const Patch& patch, double reach, DistanceTable& table) const override {
-    const Complex complex = make_complex(patch, geometry_);
+    const Complex complex = make_complex(heat::surface_of(patch), geometry_);
     heat::fill(complex.triangles, complex.cover, complex.weights, reach, table);
+    if (patch.bridge_faces > 0)
+      heat::cross_bridges(complex.triangles, heat::with_bridges(complex.triangles, patch), reach,
+                          table);
   }
   Index skipped_nodes() const override { return geometry_.skipped; }
 

@@ -175,12 +175,9 @@ Complex make_complex(const Patch& patch, const NodeGeometry& geometry) {
 
   for (const LocalTriangle& t : choose(points, patch.nodes)) {
     const auto& [a, b, c] = t.point;
-    const auto length = [&](Index p, Index q, int turn) {
-      const Sight sight = look(points, std::min(p, q), std::max(p, q), turn);
-      return sight.valid ? sight.length : (points.position[p] - points.position[q]).norm();
-    };
     add({points.node[a], points.node[b], points.node[c]},
-        {length(a, b, t.turn[1]), length(b, c, t.turn[1] * t.turn[2]), length(c, a, t.turn[2])});
+        {edge_length(points, a, b, t.turn[1]), edge_length(points, b, c, t.turn[1] * t.turn[2]),
+         edge_length(points, c, a, t.turn[2])});
   }
   for (Index f = 0; f < patch.corners.size(); ++f)
     if (!components.joined(patch.corners[f])) add(patch.corners[f], patch.lengths[f]);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace onmesh::cloud {
 namespace {
@@ -140,7 +141,7 @@ class FanBuilder {
     Vec3 normal = Vec3::Zero();
     if (length > 0.05 * total && total > 0) {
       normal = sum / length;
-      // The input knows better, unless these faces leave its surface (a bridge).
+      // The input knows better, unless these faces leave its surface.
       const Vec3& input = geometry_.face_normals[node];
       const double agreement = input.dot(normal);
       if (std::abs(agreement) > 0.5) {
@@ -156,7 +157,9 @@ class FanBuilder {
     points_.offsets.push_back(Index(points_.spokes.size()));
     const auto spoke = [&](const Corner& c, Index other, Index face) {
       const Index h = 3 * c.face + other;
-      points_.spokes.push_back({point_of_[h], c.sign * sign_of_[h], face});
+      const Index edge = other == (c.corner + 1) % 3 ? c.corner : other;
+      points_.spokes.push_back(
+          {point_of_[h], c.sign * sign_of_[h], face, patch_.lengths[c.face][edge]});
     };
     for (Index i = begin; i < end; ++i) spoke(corners_[i], corners_[i].first(), corners_[i].face);
     if (!points_.is_closed[point]) spoke(corners_[end - 1], corners_[end - 1].second(), kNone);
@@ -227,6 +230,15 @@ Sight look(const Points& points, Index from, Index to, int turn) {
   const double projected = along.norm();
   if (!(projected > 1e-6 * length)) return {};
   return {length / projected * along, length, true};
+}
+
+double edge_length(const Points& points, Index from, Index to, int turn) {
+  if (from > to) std::swap(from, to);
+  for (Index s = points.offsets[from]; s < points.offsets[from + 1]; ++s)
+    if (points.spokes[s].point == to) return points.spokes[s].length;
+  const Sight sight = look(points, from, to, turn);
+  if (sight.valid) return sight.length;
+  return (points.position[from] - points.position[to]).norm();
 }
 
 }  // namespace onmesh::cloud

@@ -25,6 +25,7 @@ struct Spoke {
   Index point = 0;
   int turn = 1;        ///< -1 if the two points' normals lie on different sides of the surface
   Index face = kNone;  ///< patch face between this spoke and the next; kNone after the last
+  double length = 0;   ///< of the patch's edge to that point
 };
 
 /// The points of a patch. A node is one point for each fan of faces around it that manifold edges
@@ -58,5 +59,10 @@ struct Sight {
 /// runs between them: the one's plane is turned about it into the other's. All others are as far as
 /// the straight line is long. \param turn of the other point's normal
 Sight look(const Points& points, Index from, Index to, int turn);
+
+/// The length of an edge of the cloud's triangles. Of adjacent points that of the patch's edge (a
+/// sight would cut short what is folded more than once between them), else of the sight, or of the
+/// straight line if there is none. The same in both directions.
+double edge_length(const Points& points, Index from, Index to, int turn);
 
 }  // namespace onmesh::cloud

@@ -28,9 +28,8 @@ void check_options(const TriangleMesh& mesh, const FilterOptions& options) {
   require_positive("--tolerance", options.tolerance);
   if (options.bridge) {
     require_positive("--bridge", options.bridge->value);
-    // Bridges are no surface that heat could flow over, nor are they in the mesh.
-    if (options.distance == DistanceMethod::heat || options.distance == DistanceMethod::exact) {
-      throw UsageError("--bridge: not with --distance " + std::string(name_of(options.distance)));
+    if (options.distance == DistanceMethod::exact) {
+      throw UsageError("--bridge: exact distances know none, so not with --distance exact");
     }
   }
   if (options.spacing && options.r_coef) {

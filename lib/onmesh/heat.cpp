@@ -5,8 +5,8 @@
 // - The patch is split 1 -> 4 (intrinsically: edge lengths halve), which quarters the time step t.
 // - Its error is first order in sqrt(t), so the divergence is extrapolated from t and 4 t:
 //   2 div(t) - div(4 t). Both are linear up to the one Poisson solve, so that costs one heat solve.
-// - The near field, two rings of nodes, comes from the unfolding march on the same complex, which
-//   also fixes the additive constant.
+// - The near field comes from the unfolding march on the same complex, to which the rest is fitted
+//   along every ray (heat_calibration.h).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "onmesh/heat.cpp"
 #include <hwy/foreach_target.h>
@@ -15,9 +15,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "onmesh/heat.h"
+#include "onmesh/heat_bridges.h"
+#include "onmesh/heat_calibration.h"
 #include "onmesh/heat_system.h"
 
 #ifndef ONMESH_HEAT_SHARED
@@ -118,42 +121,6 @@ namespace {
 // A source's heat. Large, so that the far field stays clear of denormal numbers.
 constexpr float kSourceHeat = 1e25F;
 
-// Nodes joined to a node by at most two edges.
-class TwoRings {
- public:
-  explicit TwoRings(const Patch& patch) : offsets_(patch.nodes.size() + 1, 0) {
-    std::vector<std::pair<Index, Index>> pairs;
-    pairs.reserve(6 * patch.corners.size());
-    for (const auto& c : patch.corners)
-      for (int k = 0; k < 3; ++k) {
-        pairs.emplace_back(c[k], c[(k + 1) % 3]);
-        pairs.emplace_back(c[(k + 1) % 3], c[k]);
-      }
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    neighbours_.reserve(pairs.size());
-    for (const auto& [a, b] : pairs) {
-      ++offsets_[a + 1];
-      neighbours_.push_back(b);
-    }
-    for (std::size_t i = 1; i < offsets_.size(); ++i) offsets_[i] += offsets_[i - 1];
-  }
-
-  // In no order, with repetitions; `start` itself may be among them.
-  void around(Index start, std::vector<Index>& ring) const {
-    ring.clear();
-    for (Index i = offsets_[start]; i < offsets_[start + 1]; ++i) {
-      const Index v = neighbours_[i];
-      ring.push_back(v);
-      ring.insert(ring.end(), neighbours_.begin() + offsets_[v],
-                  neighbours_.begin() + offsets_[v + 1]);
-    }
-  }
-
- private:
-  std::vector<Index> offsets_, neighbours_;
-};
-
 // Solves for the patch's distances from up to kLanes core nodes at a time, up to a constant each.
 class Solver {
  public:
@@ -209,7 +176,10 @@ class Heat final : public DistanceBackend {
   std::string_view name() const override { return "heat"; }
   double margin(double, double longest_edge) const override { return heat::margin(longest_edge); }
   void fill(const Patch& patch, double reach, DistanceTable& table) const override {
-    heat::fill(patch, patch, {}, reach, table);
+    if (patch.bridge_faces == 0) return heat::fill(patch, patch, {}, reach, table);
+    const Patch surface = surface_of(patch);
+    heat::fill(surface, surface, {}, reach, table);
+    cross_bridges(surface, patch, reach, table);
   }
 };
 
@@ -219,41 +189,22 @@ double margin(double longest_edge) { return 2 * longest_edge; }
 
 void fill(const Patch& near, const Patch& flow, const std::vector<float>& weights, double reach,
           DistanceTable& table) {
-  make_unfold()->fill(near, std::min(reach, 2 * near.longest_edge), table);
+  Calibration calibration(near, reach);
+  make_unfold()->fill(near, calibration.near_reach(), table);
   if (!(near.longest_edge > 0)) return;
   const System system = make_system(flow, weights, reach);
   Solver solver(system);
-  const TwoRings rings(near);
-  std::vector<Index> ring;
-  std::vector<unsigned char> is_near(near.nodes.size(), 0);
-  const double limit = reach + near.longest_edge;
-
+  std::vector<double> phi(near.nodes.size());
   for (Index first = 0; first < near.core_nodes; first += kLanes) {
     const int count = int(std::min<Index>(kLanes, near.core_nodes - first));
     solver.solve(first, count);
     for (int lane = 0; lane < count; ++lane) {
       const Index source = first + lane;
-      float* const row = table.squared.data() + std::size_t(source) * table.columns;
-      // The constant: match the near field on average.
-      rings.around(source, ring);
-      is_near[source] = 1;
-      double shift = 0;
-      int known = 0;
-      for (const Index node : ring) {
-        if (is_near[node] || row[node] == kUnreachable) continue;
-        is_near[node] = 1;
-        shift += std::sqrt(double(row[node])) - solver.value(node, lane);
-        ++known;
-      }
-      shift = known > 0 ? shift / known : -solver.value(source, lane);
-      for (Index node = 0; node < table.columns; ++node) {
-        if (is_near[node]) continue;
-        const double d = std::max(0.0, solver.value(node, lane) + shift);
-        const bool reached = d <= limit && system.component[node] == system.component[source];
-        row[node] = reached ? float(d * d) : kUnreachable;
-      }
-      is_near[source] = 0;
-      for (const Index node : ring) is_near[node] = 0;
+      for (Index node = 0; node < phi.size(); ++node)
+        phi[node] = system.component[node] == system.component[source]
+                        ? solver.value(node, lane)
+                        : std::numeric_limits<double>::infinity();
+      calibration.complete(source, phi, table.squared.data() + std::size_t(source) * table.columns);
     }
   }
 }
