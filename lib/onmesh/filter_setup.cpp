@@ -147,6 +147,19 @@ NodeSpacing node_spacing_for(double sigma, double texel_size) {
   return {smooth, std::min(smooth, finest)};
 }
 
+RefineOptions refinement_for(const FilterSetup& setup) {
+  RefineOptions options;
+  options.spacing = setup.plan.node_spacing;
+  options.finest = setup.plan.finest_spacing;
+  options.flat_faces = setup.plan.bridge > 0;
+  options.needed.reserve(setup.mesh.faces.size());
+  for (const double area : setup.map.texel_area) options.needed.push_back(area > 0);
+  // Patches reach two edges beyond the radius, from node faces that reach an edge beyond the texels;
+  // four more keep the faces there as small as they are where the spacing is not yet larger.
+  options.reach = setup.plan.radius + 9 * setup.plan.node_spacing;
+  return options;
+}
+
 FilterPlan in_mesh_units(FilterPlan plan, double unit) {
   for (double* length :
        {&plan.sigma_spatial, &plan.radius, &plan.node_spacing, &plan.finest_spacing,
