@@ -10,9 +10,14 @@
 namespace onmesh {
 namespace {
 
-// A face is too large when its circumradius exceeds this share of the wanted spacing; it makes the
-// number of nodes that of an equilateral lattice of that spacing (measured by bench_refine).
+// A face is too large when its circumradius exceeds this share of the wanted spacing.
 constexpr double kCircumradiusPerSpacing = 0.7;
+// Circumradius of the faces that the front makes, as a share of the largest one allowed: it leaves
+// room for the irregular ones where fronts meet.
+constexpr double kFrontRadius = 0.95;
+// A face is at the front if its shortest edge is so many times the front's circumradius (equilateral
+// faces: square root of 3). From shorter edges the front would make thin faces.
+constexpr double kShortestFrontEdge = 1, kLongestFrontEdge = 1.8;
 // Boundary edges are split down to this share of the wanted spacing, no further; so small angles
 // between boundary edges cannot make the refinement go on for ever.
 constexpr double kShortestBoundaryEdge = 0.01;
@@ -22,35 +27,37 @@ constexpr double kFinestCircumradius = 1e-3;
 // A circumcentre whose barycentric coordinate is below this goes onto the edge.
 constexpr double kOnEdge = 1e-3;
 
-/// Bad faces, in classes of circumradius: within a class the one that came last goes first. So the
+/// Bad faces by what is to be done first. Within a class the one that came last goes first: so the
 /// refinement works its way from place to place, in memory that is still in the cache, and new
 /// nodes are neighbours of the ones before.
 class BadFaces {
  public:
   static constexpr int kNotBad = -1;
+  static constexpr int kFront = 0;
+  static constexpr int kClasses = 64;
+  static constexpr int kThin = kClasses - 1;
+  /// The class of a large face that is not at the front: the smallest come first, so that one place
+  /// is refined until a front starts from there.
+  /// \param size circumradius as a share of the largest one allowed, > 1
+  static int large(double size) { return std::min(1 + std::ilogb(size * size), kThin - 1); }
 
-  /// \param size circumradius as a share of the largest one allowed, > 0
-  static int class_of(double size) {
-    return std::clamp(std::ilogb(size * size) + kClasses / 2, 0, kClasses - 1);
-  }
-  void push(Index face, int size_class) {
-    classes_[std::size_t(size_class)].push_back(face);
-    largest_ = std::max(largest_, size_class);
+  void push(Index face, int face_class) {
+    classes_[std::size_t(face_class)].push_back(face);
+    first_ = std::min(first_, face_class);
   }
   /// \return false if there are none left
-  bool pop(Index& face, int& size_class) {
-    while (largest_ >= 0 && classes_[std::size_t(largest_)].empty()) --largest_;
-    if (largest_ < 0) return false;
-    size_class = largest_;
-    face = classes_[std::size_t(largest_)].back();
-    classes_[std::size_t(largest_)].pop_back();
+  bool pop(Index& face, int& face_class) {
+    while (first_ < kClasses && classes_[std::size_t(first_)].empty()) ++first_;
+    if (first_ == kClasses) return false;
+    face_class = first_;
+    face = classes_[std::size_t(first_)].back();
+    classes_[std::size_t(first_)].pop_back();
     return true;
   }
 
  private:
-  static constexpr int kClasses = 128;
   std::array<std::vector<Index>, kClasses> classes_;
-  int largest_ = -1;
+  int first_ = kClasses;
 };
 
 class Refiner {
@@ -71,8 +78,8 @@ class Refiner {
     report.flips = t_.flip_to_delaunay();
     for (Index f = t_.edges().face_count(); f-- > 0;) push(f);
     Index face = kNone;
-    for (int size_class = 0; bad_.pop(face, size_class);) {
-      if (class_of(face) != size_class) continue;  // has changed since
+    for (int face_class = 0; bad_.pop(face, face_class);) {
+      if (class_of(face) != face_class) continue;  // has changed since
       if (t_.node_count() >= options_.max_nodes) {
         throw InputError("the node spacing would need more than " +
                          std::to_string(options_.max_nodes) + " nodes");
@@ -122,34 +129,63 @@ class Refiner {
   }
   bool too_large(Index f) const { return circumradius(f) > largest_radius(f); }
 
+  double shortest_edge(Index f) const {
+    const HalfEdges& e = t_.edges();
+    return std::min({e.length[3 * f], e.length[3 * f + 1], e.length[3 * f + 2]});
+  }
+
+  static bool at_front(double shortest_edge, double largest_radius) {
+    const double radius = kFrontRadius * largest_radius;
+    return shortest_edge >= kShortestFrontEdge * radius &&
+           shortest_edge <= kLongestFrontEdge * radius;
+  }
+
   // The class of a face that is too large or too thin.
   int class_of(Index f) const {
-    const HalfEdges& e = t_.edges();
-    const double radius = circumradius(f), size = radius / largest_radius(f);
-    if (size > 1) return BadFaces::class_of(size);
-    if (size * kCircumradiusPerSpacing < kFinestCircumradius) return BadFaces::kNotBad;
-    const double shortest = std::min({e.length[3 * f], e.length[3 * f + 1], e.length[3 * f + 2]});
+    const double radius = circumradius(f), largest = largest_radius(f);
+    const double shortest = shortest_edge(f);
+    if (radius > largest) {
+      return at_front(shortest, largest) ? BadFaces::kFront : BadFaces::large(radius / largest);
+    }
+    if (radius * kCircumradiusPerSpacing < kFinestCircumradius * largest) return BadFaces::kNotBad;
     const bool thin = shortest < 2 * radius * sine_ && !forced(f) && !remote(f);
-    return thin ? BadFaces::class_of(size) : BadFaces::kNotBad;
+    return thin ? BadFaces::kThin : BadFaces::kNotBad;
   }
 
   void push(Index f) {
-    const int size_class = class_of(f);
-    if (size_class != BadFaces::kNotBad) bad_.push(f, size_class);
+    const int face_class = class_of(f);
+    if (face_class != BadFaces::kNotBad) bad_.push(f, face_class);
   }
 
-  // Walk from the face's centroid to its circumcentre over the intrinsic faces. Returns the face
+  // Where a node makes the face better, in its layout: the circumcentre, or at the front the place
+  // on the way there from the middle of the shortest edge that makes a face of the front's size with
+  // that edge (Rebay 1993).
+  Vec2 better_node(Index f, const std::array<Vec2, 3>& at) const {
+    const HalfEdges& e = t_.edges();
+    Index k = 0;
+    for (const Index other : {1U, 2U}) {
+      if (e.length[3 * f + other] < e.length[3 * f + k]) k = other;
+    }
+    const double l = e.length[3 * f + k];
+    const Vec2 &a = at[k], &b = at[(k + 1) % 3], c = at[(k + 2) % 3] - a;
+    const Vec2 along = (b - a) / l, up(-along.y(), along.x());
+    const double height = std::max(c.dot(up), 1e-300), x = c.dot(along);
+    double rise = (x * (x - l) + height * height) / (2 * height);  // of the circumcentre
+    if (const double largest = largest_radius(f); at_front(l, largest)) {
+      const double radius = kFrontRadius * largest;
+      rise = std::min(rise, radius + std::sqrt(radius * radius - l * l / 4));
+    }
+    return (a + b) / 2 + rise * up;
+  }
+
+  // Walk from the face's centroid to a goal in its layout over the intrinsic faces. Returns the face
   // that holds it with barycentric coordinates, or the boundary half-edge in between.
   struct Destination {
     NodePoint point;
     Index blocked_by = kNone;
   };
-  Destination walk_to_circumcentre(Index f) const {
+  Destination walk_to(Index f, std::array<Vec2, 3> at, const Vec2& goal) const {
     const HalfEdges& e = t_.edges();
-    std::array<Vec2, 3> at = e.layout(f);
-    const double x = 0.5 * at[1].x();
-    const Vec2 c = at[2];
-    const Vec2 goal(x, (c.squaredNorm() - 2 * x * c.x()) / (2 * std::max(c.y(), 1e-300)));
     const Vec2 from = (at[0] + at[1] + at[2]) / 3, way = goal - from;
     Index entry = kNone;
     for (int step = 0; step < 100000; ++step) {
@@ -203,7 +239,8 @@ class Refiner {
   }
 
   void improve(Index f) {
-    Destination to = walk_to_circumcentre(f);
+    const std::array<Vec2, 3> at = t_.edges().layout(f);
+    Destination to = walk_to(f, at, better_node(f, at));
     if (to.blocked_by == kNone) to.blocked_by = encroached(to.point);
     if (!too_large(f) && at_needle(to)) return;
     if (to.blocked_by != kNone) {

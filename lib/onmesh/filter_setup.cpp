@@ -142,8 +142,9 @@ std::uint64_t estimate_memory(const Image& texture, const FilterPlan& plan) {
 }  // namespace
 
 NodeSpacing node_spacing_for(double sigma, double texel_size) {
-  const double smooth = std::max(sigma, 4 * texel_size);
-  const double finest = std::max(sigma / 4, 2 * texel_size);
+  const char* a = getenv("SM"); const char* b = getenv("FN");
+  const double smooth = std::max((a?atof(a):1)*sigma, 4 * texel_size);
+  const double finest = std::max(sigma * (b?atof(b):.25), 2 * texel_size);
   return {smooth, std::min(smooth, finest)};
 }
 
