@@ -15,8 +15,8 @@ constexpr double kCircumradiusPerSpacing = 0.7;
 // Circumradius of the faces that the front makes, as a share of the largest one allowed: it leaves
 // room for the irregular ones where fronts meet.
 constexpr double kFrontRadius = 0.95;
-// A face is at the front if its shortest edge is so many times the front's circumradius (equilateral
-// faces: square root of 3). From shorter edges the front would make thin faces.
+// A face is at the front if its shortest edge is so many times the front's circumradius
+// (equilateral faces: square root of 3). From shorter edges the front would make thin faces.
 constexpr double kShortestFrontEdge = 1, kLongestFrontEdge = 1.8;
 // Boundary edges are split down to this share of the wanted spacing, no further; so small angles
 // between boundary edges cannot make the refinement go on for ever.
@@ -24,6 +24,8 @@ constexpr double kShortestBoundaryEdge = 0.01;
 // Thin faces whose circumradius is below this share of the wanted spacing stay: features of the
 // input that are so much finer than the filter do not deserve nodes.
 constexpr double kFinestCircumradius = 1e-3;
+// Lengths that differ by less are equal: on regular meshes many are, and rounding must not decide.
+constexpr double kSame = 1e-9;
 // A circumcentre whose barycentric coordinate is below this goes onto the edge.
 constexpr double kOnEdge = 1e-3;
 
@@ -71,7 +73,8 @@ class Refiner {
         near_(std::move(vertex_spacing)),
         seams_(seams) {
     wanted_.reserve(near_.size());
-    for (Index v = 0; v < near_.size(); ++v) wanted_.push_back(near_[v] + remoteness_(t_.location(v)));
+    for (Index v = 0; v < near_.size(); ++v)
+      wanted_.push_back(near_[v] + remoteness_(t_.location(v)));
   }
 
   void run(RefineReport& report) {
@@ -127,7 +130,7 @@ class Refiner {
     return kCircumradiusPerSpacing / 3 *
            (wanted_[e.tail[3 * f]] + wanted_[e.tail[3 * f + 1]] + wanted_[e.tail[3 * f + 2]]);
   }
-  bool too_large(Index f) const { return circumradius(f) > largest_radius(f); }
+  bool too_large(Index f) const { return circumradius(f) > (1 + kSame) * largest_radius(f); }
 
   double shortest_edge(Index f) const {
     const HalfEdges& e = t_.edges();
@@ -144,11 +147,11 @@ class Refiner {
   int class_of(Index f) const {
     const double radius = circumradius(f), largest = largest_radius(f);
     const double shortest = shortest_edge(f);
-    if (radius > largest) {
+    if (radius > (1 + kSame) * largest) {
       return at_front(shortest, largest) ? BadFaces::kFront : BadFaces::large(radius / largest);
     }
     if (radius * kCircumradiusPerSpacing < kFinestCircumradius * largest) return BadFaces::kNotBad;
-    const bool thin = shortest < 2 * radius * sine_ && !forced(f) && !remote(f);
+    const bool thin = shortest < (1 - kSame) * 2 * radius * sine_ && !forced(f) && !remote(f);
     return thin ? BadFaces::kThin : BadFaces::kNotBad;
   }
 
@@ -158,13 +161,13 @@ class Refiner {
   }
 
   // Where a node makes the face better, in its layout: the circumcentre, or at the front the place
-  // on the way there from the middle of the shortest edge that makes a face of the front's size with
-  // that edge (Rebay 1993).
+  // on the way there from the middle of the shortest edge that makes a face of the front's size
+  // with that edge (Rebay 1993).
   Vec2 better_node(Index f, const std::array<Vec2, 3>& at) const {
     const HalfEdges& e = t_.edges();
     Index k = 0;
     for (const Index other : {1U, 2U}) {
-      if (e.length[3 * f + other] < e.length[3 * f + k]) k = other;
+      if (e.length[3 * f + other] < (1 - kSame) * e.length[3 * f + k]) k = other;
     }
     const double l = e.length[3 * f + k];
     const Vec2 &a = at[k], &b = at[(k + 1) % 3], c = at[(k + 2) % 3] - a;
@@ -178,8 +181,8 @@ class Refiner {
     return (a + b) / 2 + rise * up;
   }
 
-  // Walk from the face's centroid to a goal in its layout over the intrinsic faces. Returns the face
-  // that holds it with barycentric coordinates, or the boundary half-edge in between.
+  // Walk from the face's centroid to a goal in its layout over the intrinsic faces. Returns the
+  // face that holds it with barycentric coordinates, or the boundary half-edge in between.
   struct Destination {
     NodePoint point;
     Index blocked_by = kNone;
@@ -189,7 +192,7 @@ class Refiner {
     const Vec2 from = (at[0] + at[1] + at[2]) / 3, way = goal - from;
     Index entry = kNone;
     for (int step = 0; step < 100000; ++step) {
-      double nearest = 1;
+      double nearest = 1 - kSame;
       Index leave = kNone;
       for (Index k = 0; k < 3; ++k) {
         if (k == entry) continue;
@@ -198,7 +201,7 @@ class Refiner {
         if (!(closing > 0)) continue;
         const double reach = (side.x() * to.y() - side.y() * to.x()) / closing;
         if (reach < nearest) {
-          nearest = reach;
+          nearest = reach - kSame;
           leave = k;
         }
       }
@@ -225,7 +228,9 @@ class Refiner {
     const std::array<Vec2, 3> at = e.layout(p.face);
     const Vec2 x = at[0] * p.barycentric[0] + at[1] * p.barycentric[1] + at[2] * p.barycentric[2];
     for (Index k = 0; k < 3; ++k) {
-      if (e.twin[3 * p.face + k] == kNone && (at[k] - x).dot(at[(k + 1) % 3] - x) < 0)
+      if (e.twin[3 * p.face + k] == kNone &&
+          (at[k] - x).dot(at[(k + 1) % 3] - x) <
+              -kSame * e.length[3 * p.face + k] * e.length[3 * p.face + k])
         return 3 * p.face + k;
     }
     return kNone;

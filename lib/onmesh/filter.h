@@ -66,7 +66,7 @@ struct StageTime {
 struct FilterReport {
   std::string backend, backend_reason, instruction_set;
   std::string
-      refinement;  ///< "intrinsic", or "bisection" where the mesh is not manifold or bridged
+      refinement;  ///< "intrinsic", or "bisection" where parts are bridged
   /// Mesh units; sample_spacing in Poisson mode only.
   double sigma_spatial = 0, radius = 0, node_spacing = 0, sample_spacing = 0, texel_size = 0;
   std::uint64_t texels = 0, samples = 0, nodes = 0, node_faces = 0, patches = 0;

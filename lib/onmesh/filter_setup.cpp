@@ -6,6 +6,7 @@
 
 #include "onmesh/error.h"
 #include "onmesh/poisson.h"
+#include "onmesh/remoteness.h"
 
 namespace onmesh {
 namespace {
@@ -88,8 +89,7 @@ TriangleMesh cleaned(const TriangleMesh& mesh, std::vector<bool>& faces, CleanRe
   if (report.flipped > 0) warnings.push_back(faces_text(report.flipped) + " turned over");
   if (!report.manifold()) {
     warnings.push_back("the mesh is not manifold: " + report.defects() +
-                       "; it is filtered across them" +
-                       (report.manifold_apart() ? "" : ", with nodes by bisection"));
+                       "; it is filtered across them");
   }
   return clean_mesh;
 }
@@ -142,9 +142,8 @@ std::uint64_t estimate_memory(const Image& texture, const FilterPlan& plan) {
 }  // namespace
 
 NodeSpacing node_spacing_for(double sigma, double texel_size) {
-  const char* a = getenv("SM"); const char* b = getenv("FN");
-  const double smooth = std::max((a?atof(a):1)*sigma, 4 * texel_size);
-  const double finest = std::max(sigma * (b?atof(b):.25), 2 * texel_size);
+  const double smooth = std::max(1.1 * sigma, 4 * texel_size);
+  const double finest = std::max(sigma / 4, 2 * texel_size);
   return {smooth, std::min(smooth, finest)};
 }
 
@@ -155,8 +154,9 @@ RefineOptions refinement_for(const FilterSetup& setup) {
   options.flat_faces = setup.plan.bridge > 0;
   options.needed.reserve(setup.mesh.faces.size());
   for (const double area : setup.map.texel_area) options.needed.push_back(area > 0);
-  // Patches reach two edges beyond the radius, from node faces that reach an edge beyond the texels;
-  // four more keep the faces there as small as they are where the spacing is not yet larger.
+  // Patches reach two edges beyond the radius, from node faces that reach an edge beyond the
+  // texels; four more keep the faces there as small as they are where the spacing is not yet
+  // larger.
   options.reach = setup.plan.radius + 9 * setup.plan.node_spacing;
   return options;
 }
@@ -227,9 +227,14 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   }
   // Twice the area of an equilateral triangle per node; refinement stays somewhat below the
   // spacing.
-  const double area_per_node = plan.node_spacing * plan.node_spacing * std::numbers::sqrt3 / 2;
-  plan.nodes = setup.mesh.positions.size() +
-               static_cast<std::uint64_t>(1.3 * plan.surface_area / area_per_node);
+  const RefineOptions refinement = refinement_for(setup);
+  const Remoteness remoteness(setup.mesh, refinement);
+  double nodes = double(setup.mesh.positions.size());
+  for (Index f = 0; f < setup.mesh.faces.size(); ++f) {
+    const double spacing = refinement.spacing + remoteness({f, Vec3::Constant(1.0 / 3)});
+    nodes += 1.2 * setup.mesh.face_area(f) / (spacing * spacing * std::numbers::sqrt3 / 2);
+  }
+  plan.nodes = static_cast<std::uint64_t>(nodes);
   plan.memory_bytes = estimate_memory(texture, plan);
   return setup;
 }

@@ -30,8 +30,9 @@ struct NodeSpacing {
   double smooth = 0, finest = 0;
 };
 
-/// The spacing rule: as coarse as sigma, a quarter of it where distances bend, but with enough
-/// texels per node face to keep the kernel busy.
+/// The spacing rule: a little more than sigma, a quarter of it where distances bend, but with
+/// enough texels per node face to keep the kernel busy (both as coarse as the accuracy tests
+/// allow).
 NodeSpacing node_spacing_for(double sigma, double texel_size);
 
 }  // namespace onmesh

@@ -145,8 +145,8 @@ class IntrinsicTriangulation {
   std::vector<double> total_angle_;     // per node
   std::vector<std::uint8_t> boundary_;  // per node
   std::vector<SurfacePoint> locations_;
-  std::vector<Index> suspects_;         // of restore_delaunay()
-  std::vector<Index> boundary_edge_;    // per inserted node on the boundary: its input half-edge
+  std::vector<Index> suspects_;       // of restore_delaunay()
+  std::vector<Index> boundary_edge_;  // per inserted node on the boundary: its input half-edge
 };
 
 /// Barycentric coordinates of a point in a counter-clockwise planar triangle, clamped to it.

@@ -168,7 +168,8 @@ void join_nodes(const Pieces& pieces, Index input_vertices, NodeMesh& nodes) {
 /// Corners 1 and 2 of the faces that were turned over are exchanged again.
 void turn_back(const std::vector<bool>& turned, NodeSurface& surface) {
   for (SurfacePoint& node : surface.nodes.nodes) {
-    if (node.face != kNone && turned[node.face]) std::swap(node.barycentric[1], node.barycentric[2]);
+    if (node.face != kNone && turned[node.face])
+      std::swap(node.barycentric[1], node.barycentric[2]);
   }
   Overlay& overlay = surface.overlay;
   for (Index f = 0; f < turned.size(); ++f) {
@@ -199,7 +200,8 @@ NodeSurface refine_pieces(const TriangleMesh& mesh, const RefineOptions& options
   NodeMesh& nodes = surface.nodes;
   for (const auto& sides : pieces.seams.edges()) {
     if (sides.size() != 2) continue;
-    const Index a = triangulation.outgoing(sides[0].tail), b = triangulation.outgoing(sides[1].tail);
+    const Index a = triangulation.outgoing(sides[0].tail),
+                b = triangulation.outgoing(sides[1].tail);
     nodes.neighbours[a / 3][a % 3] = b;
     nodes.neighbours[b / 3][b % 3] = a;
   }

@@ -8,9 +8,9 @@
 
 namespace onmesh {
 
-/// Where a mesh was cut into pieces. A seam edge has a side on every piece that meets there; each is
-/// a boundary half-edge, named by its tail, from which no other starts. All sides of an edge must be
-/// split at once and in the middle.
+/// Where a mesh was cut into pieces. A seam edge has a side on every piece that meets there; each
+/// is a boundary half-edge, named by its tail, from which no other starts. All sides of an edge
+/// must be split at once and in the middle.
 class Seams {
  public:
   struct Side {
@@ -20,8 +20,8 @@ class Seams {
 
   bool empty() const { return edges_.empty(); }
   void add(std::vector<Side> sides);
-  /// The sides of the edge that the boundary half-edge at this tail belongs to; empty if it is on no
-  /// seam.
+  /// The sides of the edge that the boundary half-edge at this tail belongs to; empty if it is on
+  /// no seam.
   std::span<const Side> sides(Index tail) const;
   /// Note that the sides of an edge were split. \param middles the new nodes, one per side
   void split(Index tail, const std::vector<Index>& middles);
