@@ -97,6 +97,33 @@ TEST_CASE("finer nodes bring the filter closer to the definition", "[accuracy]")
   }
 }
 
+TEST_CASE("a small chart on a large surface needs few nodes and filters as well", "[accuracy]") {
+  TriangleMesh mesh = make_blob(3, 1);
+  const Image texture = make_texture(192, 192, Pattern::checker, 0.3, 7);
+  FilterOptions options;
+  options.kind = FilterKind::gaussian;
+  options.sigma_spatial = {8, Length::Unit::texel};
+  FilterReport whole, report;
+  filter(mesh, texture, options, &whole);
+  // All other faces lose their UVs: those around a point that lies off the centre of a chart.
+  const Vec3 centre = mesh.position({40, Vec3(0.2, 0.3, 0.5)});
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    const SurfacePoint middle{f, Vec3::Constant(1.0 / 3)};
+    if ((mesh.position(middle) - centre).norm() > 0.25) mesh.face_uvs[f] = {kNone, kNone, kNone};
+  }
+  options.sigma_spatial = {whole.sigma_spatial / 2, Length::Unit::mesh};
+  const Image result = filter(mesh, texture, options, &report);
+  ExactGeodesics exact(mesh);
+  const BruteForce truth =
+      against_brute_force(mesh, texture, result, options.kind, report.sigma_spatial, report.radius,
+                          0.2, 100, [&](const SurfacePoint& source, const auto& targets) {
+                            return exact.distances(source, targets);
+                          });
+  CHECK(truth.psnr > 65);
+  // The mesh's own vertices apart.
+  CHECK(report.nodes - mesh.positions.size() < whole.nodes / 2);
+}
+
 TEST_CASE("nothing leaks through a sheet folded to half a texel", "[accuracy]") {
   const double leaf = 1, gap = 0.5 / 96;
   for (const int segments : {1, 3}) {

@@ -144,3 +144,55 @@ TEST_CASE("spacings that make no sense are refused", "[refine]") {
   const TriangleMesh mesh = make_plane(1, 1);
   CHECK_THROWS_AS(refine(mesh, make_half_edge_mesh(mesh), options), InputError);
 }
+
+TEST_CASE("nodes are few where none are needed, and as dense as ever within reach", "[refine]") {
+  for (const Index segments : {1U, 16U}) {
+    // A large plane with a small needed patch in its corner, in faces of their own.
+    TriangleMesh mesh = make_plane(int(segments), int(segments), 10, 10);
+    RefineOptions options;
+    options.spacing = 0.05;
+    options.reach = 0.5;
+    options.needed.assign(mesh.faces.size(), false);
+    Vec3 corner = Vec3::Zero();
+    if (segments == 1) {
+      // Both faces touch the needed one, which is cut off at a corner.
+      corner = mesh.positions[mesh.faces[0][0]];
+      const Index a = Index(mesh.positions.size());
+      const auto face = mesh.faces[0];
+      mesh.positions.push_back(corner + 0.03 * (mesh.positions[face[1]] - corner));
+      mesh.positions.push_back(corner + 0.03 * (mesh.positions[face[2]] - corner));
+      const auto other = mesh.faces[1];
+      mesh.faces = {{face[0], a, a + 1}, {a, face[1], a + 1}, {face[1], face[2], a + 1}};
+      // The other face's side along the diagonal gets the new vertex, too.
+      for (Index k = 0; k < 3; ++k) {
+        const Index from = other[k], to = other[(k + 1) % 3], apex = other[(k + 2) % 3];
+        const bool along = (from == face[2] && to == face[0]) || (from == face[0] && to == face[1]);
+        const bool shared = (from == face[2] && to == face[0]) ||
+                            (from == face[0] && to == face[2]) ||
+                            (from == face[1] && to == face[0]);
+        if (!shared && !along) continue;
+        const Index split = from == face[2] || to == face[2] ? a + 1 : a;
+        mesh.faces.push_back({from, split, apex});
+        mesh.faces.push_back({split, to, apex});
+      }
+      mesh.face_uvs.assign(mesh.faces.size(), {kNone, kNone, kNone});
+      mesh.face_materials.assign(mesh.faces.size(), kNone);
+      options.needed.assign(mesh.faces.size(), false);
+    } else {
+      corner = mesh.positions[mesh.faces[0][0]];
+    }
+    options.needed[0] = true;
+    const NodeSurface surface = refine(mesh, make_half_edge_mesh(mesh), options);
+    CHECK(area_of(surface.nodes) == Approx(area_of(mesh)).epsilon(1e-11));
+    const double everywhere = 100 * 2 / (std::sqrt(3.0) * 0.05 * 0.05);
+    CHECK(double(surface.nodes.nodes.size()) < 0.05 * everywhere);
+    double longest = 0;
+    for (Index f = 0; f < surface.nodes.faces.size(); ++f) {
+      const Index node = surface.nodes.faces[f][0];
+      if ((mesh.position(surface.nodes.nodes[node]) - corner).norm() > options.reach) continue;
+      for (const double l : surface.nodes.lengths[f]) longest = std::max(longest, l);
+    }
+    CHECK(longest > 0);
+    CHECK(longest <= 1.4 * options.spacing * (1 + 1e-6));
+  }
+}

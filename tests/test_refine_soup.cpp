@@ -194,7 +194,7 @@ TEST_CASE("bisection honours max_nodes and refuses senseless spacings", "[refine
   CHECK_THROWS_AS(refine_soup(make_book(1), options), InputError);
 }
 
-TEST_CASE("only branching and one-sided meshes are bisected", "[refine_soup]") {
+TEST_CASE("only meshes whose faces must stay flat are bisected", "[refine_soup]") {
   RefineOptions options;
   options.spacing = 0.3;
   for (const TriangleMesh& mesh : {make_cube(), make_book(2), make_bow_tie(1), make_moebius(2)}) {
@@ -202,7 +202,11 @@ TEST_CASE("only branching and one-sided meshes are bisected", "[refine_soup]") {
     const TriangleMesh cleaned = clean(mesh, &cleaning);
     RefineReport report;
     refine(cleaned, cleaning, options, &report);
-    CHECK(report.bisected == (mesh.faces == make_book(2).faces || !cleaning.orientable));
+    CHECK_FALSE(report.bisected);
+    options.flat_faces = true;
+    refine(cleaned, cleaning, options, &report);
+    CHECK(report.bisected);
+    options.flat_faces = false;
     CHECK(cleaning.manifold() == (mesh.faces.size() == 12));
     CHECK(cleaning.defects().empty() == cleaning.manifold());
   }

@@ -73,14 +73,14 @@ TEST_CASE("pages of a book filter as the flat sheets that any two of them are", 
             psnr_against(book, texture, kind, 0.15, by_positions(book, book_distance), &report);
         INFO(angle << " degrees, " << segments << " segments");
         CHECK(psnr >= 120);
-        CHECK(report.refinement == "bisection");
+        CHECK(report.refinement == "intrinsic");
         CHECK(report.without_sample == 0);
       }
     }
   }
 }
 
-TEST_CASE("the report says that and why a mesh is bisected", "[soup]") {
+TEST_CASE("the report says that and why a mesh is not manifold", "[soup]") {
   const Image texture = noise_image(32);
   FilterOptions options;
   FilterReport report;
@@ -89,8 +89,8 @@ TEST_CASE("the report says that and why a mesh is bisected", "[soup]") {
         "the default for meshes that are not manifold: 3 edges have more than two faces");
   REQUIRE(report.warnings.size() == 1);
   CHECK(report.warnings[0] ==
-        "the mesh is not manifold: 3 edges have more than two faces; it is filtered across them, "
-        "with nodes by bisection");
+        "the mesh is not manifold: 3 edges have more than two faces; it is filtered across "
+        "them");
   filter(make_bow_tie(2), texture, options, &report);
   CHECK_THAT(report.backend_reason, Catch::Contains("1 vertex joins parts that share no edge"));
   filter(make_moebius(2), texture, options, &report);

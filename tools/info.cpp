@@ -286,7 +286,7 @@ void print_text(const InputMesh& input, const Findings& findings) {
   if (c.separated > 0) {
     row("layers", format_count(c.separated) + " faces are filtered as sheets of their own");
   }
-  if (!c.manifold_apart()) row("nodes", "by bisection: " + c.defects());
+  if (!c.manifold()) row("nodes", "in pieces put together: " + c.defects());
   std::cout << "atlas\n";
   row("charts", format_count(r.charts));
   row("without UVs", format_count(r.faces_without_uvs) + " faces");

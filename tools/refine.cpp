@@ -22,9 +22,9 @@ Command make_command() {
   command.summary =
       "Refines the mesh's intrinsic triangulation: Delaunay flips, then circumcentres until every "
       "face is\n"
-      "small and round enough. A mesh that is not manifold is refined by bisection inside its "
-      "faces\n"
-      "instead. The input's vertices stay; the surface does not change at all.";
+      "small and round enough. A mesh that is not manifold is cut into manifold pieces, "
+      "which\n"
+      "are put together again. The input's vertices stay; the surface does not change at all.";
   command.examples =
       "  onmesh refine cube.obj --spacing 0.1 -o nodes.ply\n"
       "  onmesh refine scan.obj --spacing 1% --json\n";
@@ -33,8 +33,8 @@ Command make_command() {
   add("output,o", text(), "PLY to write: nodes with x y z u v and their triangles");
   add("spacing", text("2%"), "distance between nodes, mesh units or % of the diagonal");
   add("finest", text(), "spacing at cones, creases and reflex corners (default: a quarter)");
-  add("growth", text("0.35"), "growth of the spacing away from them, per unit of distance");
-  add("min-angle", text("25"), "smallest angle to leave, degrees, 0 to 30 (manifold meshes)");
+  add("growth", text("0.25"), "growth of the spacing away from them, per unit of distance");
+  add("min-angle", text("25"), "smallest angle to leave, degrees, 0 to 30");
   add("json", flag(), "statistics as JSON on stdout");
   add("quiet", flag(), "no summary");
   command.positional.add("mesh", 1);
@@ -78,10 +78,6 @@ int run_refine(const std::vector<std::string>& arguments) {
   CleanReport cleaning;
   const TriangleMesh mesh = clean(read, &cleaning);
   warn(warnings);
-  if (!cleaning.manifold_apart() && !values["min-angle"].defaulted()) {
-    throw UsageError("--min-angle: " + path + " is not manifold (" + cleaning.defects() +
-                     "), and bisection keeps no angle bound");
-  }
   options.spacing = length_of(values, "spacing", mesh.diagonal());
   if (has(values, "finest")) {
     options.finest = length_of(values, "finest", mesh.diagonal());
@@ -109,7 +105,7 @@ int run_refine(const std::vector<std::string>& arguments) {
     json["input_vertices"] = report.input_vertices;
     json["nodes"] = report.nodes;
     json["faces"] = report.faces;
-    json["refinement"] = report.bisected ? "bisection" : "intrinsic";
+    json["refinement"] = "intrinsic";
     json["flips"] = report.flips;
     json["insertions"] = report.insertions;
     json["smallest_angle_degrees"] = report.smallest_angle_degrees;
@@ -122,9 +118,7 @@ int run_refine(const std::vector<std::string>& arguments) {
               << format_count(report.nodes) << " nodes, " << format_count(report.faces)
               << " faces (spacing " << options.spacing << ", mean edge " << mean_edge
               << ", smallest angle " << report.smallest_angle_degrees << " degrees, "
-              << (report.bisected ? "by bisection: " + cleaning.defects()
-                                  : format_count(report.flips) + " flips")
-              << ")\n";
+              << format_count(report.flips) << " flips)\n";
   }
   return 0;
 }

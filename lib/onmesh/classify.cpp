@@ -182,10 +182,9 @@ MeshReport classify(const TriangleMesh& welded) {
 std::vector<std::string> advice(const MeshReport& r) {
   std::vector<std::string> lines;
   if (r.nonmanifold_edges > 0) {
-    lines.push_back(
-        count_of(r.nonmanifold_edges, "edge has", "edges have") +
-        " three or more faces: the filter goes on into each of them (nodes by bisection); "
-        "split or remove the extra faces if they are not meant to be there");
+    lines.push_back(count_of(r.nonmanifold_edges, "edge has", "edges have") +
+                    " three or more faces: the filter goes on into each of them; split "
+                    " or remove the extra faces if they are not meant to be there");
   }
   if (r.nonmanifold_vertices > 0) {
     lines.push_back(
@@ -195,10 +194,8 @@ std::vector<std::string> advice(const MeshReport& r) {
   }
   if (!r.orientable) {
     lines.push_back(
-        "part of the surface has only one side, like a Moebius strip: it is filtered as it is "
-        "(nodes "
-        "by bisection), but normals cannot agree on it; cut it open along a line of edges if that "
-        "is not meant");
+        "part of the surface has only one side, like a Moebius strip: it is filtered as it is, "
+        "but normals cannot agree on it; cut it open along a line of edges if that is not meant");
   } else if (r.inconsistent_edges > 0) {
     lines.push_back(
         count_of(r.inconsistent_edges, "edge has", "edges have") +

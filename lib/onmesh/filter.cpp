@@ -283,12 +283,8 @@ Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& o
   stages.end();
 
   stages.begin("refine");
-  RefineOptions refine_options;
-  refine_options.spacing = plan.node_spacing;
-  refine_options.finest = plan.finest_spacing;
-  refine_options.flat_faces = plan.bridge > 0;
   RefineReport refined;
-  NodeSurface surface = refine(setup.mesh, setup.cleaning, refine_options, &refined);
+  NodeSurface surface = refine(setup.mesh, setup.cleaning, refinement_for(setup), &refined);
   report.refinement = refined.bisected ? "bisection" : "intrinsic";
   if (plan.bridge > 0) report.bridges = add_bridges(setup.mesh, plan.bridge, surface);
   report.nodes = surface.nodes.nodes.size();

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "onmesh/error.h"
+#include "onmesh/remoteness.h"
 #include "onmesh/spacing_field.h"
 
 namespace onmesh {
@@ -87,8 +88,7 @@ TriangleMesh cleaned(const TriangleMesh& mesh, std::vector<bool>& faces, CleanRe
   if (report.flipped > 0) warnings.push_back(faces_text(report.flipped) + " turned over");
   if (!report.manifold()) {
     warnings.push_back("the mesh is not manifold: " + report.defects() +
-                       "; it is filtered across them" +
-                       (report.manifold_apart() ? "" : ", with nodes by bisection"));
+                       "; it is filtered across them");
   }
   return clean_mesh;
 }
@@ -144,6 +144,20 @@ NodeSpacing node_spacing_for(double sigma, double texel_size) {
   const double smooth = std::max(1.5 * sigma, 4 * texel_size);
   const double finest = std::max(sigma / 4, 2 * texel_size);
   return {smooth, std::min(smooth, finest)};
+}
+
+RefineOptions refinement_for(const FilterSetup& setup) {
+  RefineOptions options;
+  options.spacing = setup.plan.node_spacing;
+  options.finest = setup.plan.finest_spacing;
+  options.flat_faces = setup.plan.bridge > 0;
+  options.needed.reserve(setup.mesh.faces.size());
+  for (const double area : setup.map.texel_area) options.needed.push_back(area > 0);
+  // Patches reach two edges beyond the radius, from node faces that reach an edge beyond the
+  // texels; four more keep the faces there as small as they are where the spacing is not yet
+  // larger.
+  options.reach = setup.plan.radius + 9 * setup.plan.node_spacing;
+  return options;
 }
 
 FilterPlan in_mesh_units(FilterPlan plan, double unit) {
@@ -213,9 +227,14 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   }
   // Twice the area of an equilateral triangle per node; refinement stays somewhat below the
   // spacing.
-  const double area_per_node = plan.node_spacing * plan.node_spacing * std::numbers::sqrt3 / 2;
-  plan.nodes = setup.mesh.positions.size() +
-               static_cast<std::uint64_t>(1.3 * plan.surface_area / area_per_node);
+  const RefineOptions refinement = refinement_for(setup);
+  const Remoteness remoteness(setup.mesh, refinement);
+  double nodes = double(setup.mesh.positions.size());
+  for (Index f = 0; f < setup.mesh.faces.size(); ++f) {
+    const double spacing = refinement.spacing + remoteness({f, Vec3::Constant(1.0 / 3)});
+    nodes += 1.2 * setup.mesh.face_area(f) / (spacing * spacing * std::numbers::sqrt3 / 2);
+  }
+  plan.nodes = static_cast<std::uint64_t>(nodes);
   plan.memory_bytes = estimate_memory(texture, plan);
   return setup;
 }

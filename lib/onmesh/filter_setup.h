@@ -2,6 +2,7 @@
 #pragma once
 
 #include "onmesh/filter.h"
+#include "onmesh/refine.h"
 
 namespace onmesh {
 
@@ -21,6 +22,9 @@ FilterPlan in_mesh_units(FilterPlan plan, double unit);
 
 FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
                           const FilterOptions& options);
+
+/// Nodes as the plan wants them, where texels are and as far around as paths between them lead.
+RefineOptions refinement_for(const FilterSetup& setup);
 
 /// Node spacing on smooth surface and at cones, creases and corners, in mesh units.
 struct NodeSpacing {

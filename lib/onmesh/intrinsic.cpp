@@ -101,11 +101,12 @@ double HalfEdges::cotan_sum(Index h) const {
 
 IntrinsicTriangulation::IntrinsicTriangulation(const TriangleMesh& mesh,
                                                const HalfEdgeMesh& half_edges)
-    : input_vertices_(static_cast<Index>(mesh.positions.size())),
-      input_(flat_half_edges(mesh, half_edges)) {
+    : IntrinsicTriangulation(flat_half_edges(mesh, half_edges), Index(mesh.positions.size())) {}
+
+IntrinsicTriangulation::IntrinsicTriangulation(HalfEdges input, Index vertices)
+    : input_vertices_(vertices), input_(std::move(input)) {
   mollify(input_);
   edges_ = input_;
-  const std::size_t vertices = mesh.positions.size();
   outgoing_.assign(vertices, kNone);
   boundary_.assign(vertices, 0);
   total_angle_.assign(vertices, 0);
@@ -134,8 +135,8 @@ IntrinsicTriangulation::IntrinsicTriangulation(const TriangleMesh& mesh,
   }
   input_direction_ = direction_;
 
-  input_layout_.resize(mesh.faces.size());
-  for (Index f = 0; f < mesh.faces.size(); ++f) input_layout_[f] = input_.layout(f);
+  input_layout_.resize(input_.face_count());
+  for (Index f = 0; f < input_layout_.size(); ++f) input_layout_[f] = input_.layout(f);
 }
 
 bool HalfEdges::is_delaunay(Index h) const {
@@ -233,22 +234,36 @@ void IntrinsicTriangulation::set_direction(Index h, double angle) {
   direction_[h] = angle;
 }
 
-Index IntrinsicTriangulation::flip_to_delaunay(std::vector<Index> suspects,
-                                               std::vector<Index>* touched) {
-  return edges_.flip_to_delaunay(std::move(suspects), [&](Index h) {
-    if (!flip(h)) return false;
-    if (touched != nullptr) {
-      touched->push_back(HalfEdges::face(h));
-      touched->push_back(HalfEdges::face(edges_.twin[h]));
-    }
-    return true;
-  });
-}
-
 Index IntrinsicTriangulation::flip_to_delaunay() {
   std::vector<Index> all(edges_.tail.size());
   for (Index h = 0; h < all.size(); ++h) all[h] = h;
-  return flip_to_delaunay(std::move(all));
+  return edges_.flip_to_delaunay(std::move(all), [this](Index h) { return flip(h); });
+}
+
+Index IntrinsicTriangulation::restore_delaunay(Index node) {
+  suspects_.clear();
+  Index spoke = outgoing_[node];
+  do {
+    suspects_.push_back(HalfEdges::next(spoke));
+    spoke = edges_.rotate(spoke);
+  } while (spoke != kNone && spoke != outgoing_[node]);
+  Index flips = 0;
+  const std::size_t bound = 1000 + 100 * edges_.tail.size();  // see HalfEdges::flip_to_delaunay()
+  while (!suspects_.empty() && flips < bound) {
+    const Index h = suspects_.back();
+    suspects_.pop_back();
+    if (is_delaunay(h)) continue;
+    const Index twin = edges_.twin[h];
+    const bool on_both_sides = edges_.tail[HalfEdges::prev(twin)] == node;
+    if (!flip(h)) continue;
+    ++flips;
+    // The edges at the node are Delaunay; those across the edge that went are not known to be.
+    suspects_.insert(suspects_.end(), {HalfEdges::prev(h), HalfEdges::next(twin)});
+    if (on_both_sides) {
+      suspects_.insert(suspects_.end(), {HalfEdges::next(h), HalfEdges::prev(twin)});
+    }
+  }
+  return flips;
 }
 
 Index IntrinsicTriangulation::append_faces(Index count) {

@@ -65,6 +65,9 @@ class IntrinsicTriangulation {
   /// Starts as the input mesh itself. Edge lengths are lengthened by one common amount, about 1e-12
   /// of their mean, if a face is degenerate otherwise (Sharp & Crane 2020, section 4.5).
   IntrinsicTriangulation(const TriangleMesh& mesh, const HalfEdgeMesh& half_edges);
+  /// The same for connectivity that no mesh of vertices can tell, as along slits.
+  /// \pre every vertex has one fan of faces at most; twins run in opposite directions
+  IntrinsicTriangulation(HalfEdges input, Index vertices);
 
   const HalfEdges& edges() const { return edges_; }
   const HalfEdges& input() const { return input_; }
@@ -82,11 +85,11 @@ class IntrinsicTriangulation {
   bool is_delaunay(Index h) const { return edges_.is_delaunay(h); }
   /// HalfEdges::flip() with signposts.
   bool flip(Index h);
-  /// Flip until every edge is Delaunay, starting with the given half-edges. Appends the faces that
-  /// changed to `touched` (with repetitions) if given.
-  /// \return number of flips
-  Index flip_to_delaunay(std::vector<Index> suspects, std::vector<Index>* touched = nullptr);
+  /// Flip until every edge is Delaunay. \return number of flips
   Index flip_to_delaunay();
+  /// Flip until every edge is Delaunay where all were but for those of the faces around the node.
+  /// All faces that change are around it afterwards. \return number of flips
+  Index restore_delaunay(Index node);
 
   /// Insert a node inside a face. Barycentric coordinates near 0 make a face whose lengths
   /// determine its height badly: use split() there. The face keeps its number and two are appended.
@@ -142,6 +145,7 @@ class IntrinsicTriangulation {
   std::vector<double> total_angle_;     // per node
   std::vector<std::uint8_t> boundary_;  // per node
   std::vector<SurfacePoint> locations_;
+  std::vector<Index> suspects_;       // of restore_delaunay()
   std::vector<Index> boundary_edge_;  // per inserted node on the boundary: its input half-edge
 };
 

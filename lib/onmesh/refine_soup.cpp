@@ -1,11 +1,11 @@
 #include "onmesh/refine_soup.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <string>
 
 #include "onmesh/error.h"
+#include "onmesh/remoteness.h"
 #include "onmesh/wanted_spacing.h"
 
 namespace onmesh {
@@ -19,9 +19,9 @@ constexpr double kLongestPerSpacing = 1.4;
 class Bisection {
  public:
   Bisection(const TriangleMesh& mesh, const RefineOptions& options)
-      : mesh_(mesh), options_(options) {
+      : mesh_(mesh), options_(options), remoteness_(mesh, options) {
     const EdgeTable table(mesh);
-    spacing_ = wanted_spacing(mesh, table, options);
+    near_ = wanted_spacing(mesh, table, options);
     positions_ = mesh.positions;
     nodes_.resize(mesh.positions.size());
     edges_.reserve(table.size());
@@ -36,6 +36,8 @@ class Bisection {
         if (node.face == kNone) node = {f, Vec3::Unit(k)};
       }
     }
+    wanted_.reserve(near_.size());
+    for (Index v = 0; v < near_.size(); ++v) wanted_.push_back(near_[v] + remoteness_(nodes_[v]));
     for (std::size_t e = 0; e < table.size(); ++e) {
       const auto [a, b] = table.vertices(e);
       const Index edge = add_edge(a, b, (positions_[b] - positions_[a]).norm());
@@ -148,7 +150,7 @@ class Bisection {
 
   bool too_large(Index f) const {
     const auto& n = faces_[f].nodes;
-    const double wanted = (spacing_[n[0]] + spacing_[n[1]] + spacing_[n[2]]) / 3;
+    const double wanted = (wanted_[n[0]] + wanted_[n[1]] + wanted_[n[2]]) / 3;
     return edges_[longest_edge(f)].length > kLongestPerSpacing * wanted;
   }
 
@@ -175,21 +177,22 @@ class Bisection {
     const auto [a, b] = edges_[edge].ends;
     const double half = edges_[edge].length / 2;
     const Vec3 position = (positions_[a] + positions_[b]) / 2;
-    double spacing = std::min({options_.spacing, spacing_[a] + options_.growth * half,
-                               spacing_[b] + options_.growth * half});
+    double spacing = std::min(
+        {options_.spacing, near_[a] + options_.growth * half, near_[b] + options_.growth * half});
     Index lowest =
         kNone;  // of the sides: where the node is said to lie must not hang on their order
     for (Index s = edges_[edge].first_side; s != kNone; s = next_side_[s]) {
       const Index apex = faces_[s / 3].nodes[(s % 3 + 2) % 3];
-      spacing = std::min(spacing,
-                         spacing_[apex] + options_.growth * (positions_[apex] - position).norm());
+      spacing =
+          std::min(spacing, near_[apex] + options_.growth * (positions_[apex] - position).norm());
       lowest = std::min(lowest, s);
     }
     const Face& face = faces_[lowest / 3];
     const Vec2 at = (face.at[lowest % 3] + face.at[(lowest % 3 + 1) % 3]) / 2;
     nodes_.push_back({face.input, to_barycentric(at)});
     positions_.push_back(position);
-    spacing_.push_back(spacing);
+    near_.push_back(spacing);
+    wanted_.push_back(spacing + remoteness_(nodes_.back()));
     return static_cast<Index>(nodes_.size() - 1);
   }
 
@@ -226,8 +229,10 @@ class Bisection {
 
   const TriangleMesh& mesh_;
   const RefineOptions& options_;
+  const Remoteness remoteness_;
   std::vector<Vec3> positions_;  // per node
-  std::vector<double> spacing_;  // per node
+  std::vector<double> near_;     // per node: the spacing wanted where nodes are needed
+  std::vector<double> wanted_;   // per node: the same with what is added far from there
   std::vector<SurfacePoint> nodes_;
   std::vector<Edge> edges_;  // those that were split have no side
   std::vector<Face> faces_;
@@ -238,9 +243,7 @@ class Bisection {
 
 NodeSurface refine_soup(const TriangleMesh& mesh, const RefineOptions& options,
                         RefineReport* report) {
-  if (!(options.spacing > 0) || !std::isfinite(options.spacing)) {
-    throw UsageError("the node spacing must be positive and finite");
-  }
+  check_spacing(options);
   Bisection bisection(mesh, options);
   bisection.run();
   NodeSurface surface = bisection.surface();

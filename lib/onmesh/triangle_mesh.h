@@ -74,8 +74,6 @@ struct CleanReport {
 
   /// Fit for a half-edge structure.
   bool manifold() const { return branching_edges == 0 && bow_ties == 0 && orientable; }
-  /// Fit for one once each fan of faces has vertices of its own.
-  bool manifold_apart() const { return branching_edges == 0 && orientable; }
   /// Why it is not manifold: "3 edges have more than two faces, ..."; empty if it is.
   std::string defects() const;
 };

@@ -1,4 +1,4 @@
-// How fine nodes should be at the vertices of any triangle complex (internal: refine_soup).
+// How fine nodes should be at the vertices of any triangle complex (internal: refine).
 #pragma once
 
 #include <vector>
