@@ -140,8 +140,8 @@ std::uint64_t estimate_memory(const Image& texture, const FilterPlan& plan) {
 
 }  // namespace
 
-NodeSpacing node_spacing_for(double sigma, double texel_size) {
-  const double smooth = std::max(1.5 * sigma, 4 * texel_size);
+NodeSpacing node_spacing_for(double sigma, double texel_size, bool depends_on_spacing) {
+  const double smooth = std::max((depends_on_spacing ? 1.0 : 1.5) * sigma, 4 * texel_size);
   const double finest = std::max(sigma / 4, 2 * texel_size);
   return {smooth, std::min(smooth, finest)};
 }
@@ -205,7 +205,10 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
                     ? resolved(*options.radius)
                     : plan.sigma_spatial * (options.kind == FilterKind::bilateral ? 2.5 : 3.0);
   if (options.bridge) plan.bridge = resolved(*options.bridge);
-  const NodeSpacing rule = node_spacing_for(plan.sigma_spatial, plan.texel_size);
+  const bool depends_on_spacing = options.distance == DistanceMethod::heat ||
+                                  options.distance == DistanceMethod::cloud || plan.bridge > 0;
+  const NodeSpacing rule =
+      node_spacing_for(plan.sigma_spatial, plan.texel_size, depends_on_spacing);
   plan.node_spacing = options.node_spacing ? resolved(*options.node_spacing) : rule.smooth;
   plan.finest_spacing = options.node_spacing ? plan.node_spacing / 4 : rule.finest;
 

@@ -35,6 +35,8 @@ struct NodeSpacing {
 /// folded surface, and its error falls with the square of the spacing over the radius of
 /// curvature), a quarter of sigma where distances bend, but with enough texels per node face to
 /// keep the kernel busy.
-NodeSpacing node_spacing_for(double sigma, double texel_size);
+/// \param depends_on_spacing distances themselves are only as good as the nodes are close (heat,
+///   cloud, bridges): sigma where the surface is smooth
+NodeSpacing node_spacing_for(double sigma, double texel_size, bool depends_on_spacing);
 
 }  // namespace onmesh
