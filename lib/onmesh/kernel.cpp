@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "onmesh/kernel_gather.h"
 
@@ -38,16 +39,20 @@ class Neighbourhood {
   std::vector<Face> faces;
 
   Neighbourhood(const KernelInput& input, const KernelWork& work)
-      : table_(*input.table), work_(work), nearest_(table_.columns), index_(table_.columns) {}
+      : table_(*input.table),
+        work_(work),
+        nearest_(table_.columns),
+        index_(table_.columns),
+        is_listed_(table_.columns) {}
 
   void find(std::size_t first, std::size_t count) {
     corners_.clear();
     for (std::size_t k = first; k < first + count; ++k) {
-      const auto& corners = work_.targets[k].corners;
-      corners_.insert(corners_.end(), corners.begin(), corners.end());
+      for (const Index corner : work_.targets[k].corners) {
+        if (std::exchange(is_listed_[corner], 1) == 0) corners_.push_back(corner);
+      }
     }
-    std::sort(corners_.begin(), corners_.end());
-    corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
+    for (const Index corner : corners_) is_listed_[corner] = 0;
     std::fill(nearest_.begin(), nearest_.end(), kUnreachable);
     for (const Index corner : corners_) {
       const float* const row = table_.row(corner);
@@ -81,6 +86,7 @@ class Neighbourhood {
   std::vector<Index> corners_;
   std::vector<float> nearest_;  ///< smallest squared distance of a node to the targets' corners
   std::vector<Index> index_;
+  std::vector<unsigned char> is_listed_;  ///< in corners_
 };
 
 /// As many targets as a vector has lanes, with everything that is the same for all samples.
@@ -97,6 +103,7 @@ class Block {
         own_(hwy::AllocateAligned<float>(channels_ * lanes_)),
         sums_(hwy::AllocateAligned<float>((channels_ + 1) * lanes_)),
         most_(table_.columns),
+        least_(table_.columns),
         unreachable_(table_.columns) {}
 
   /// Sum over all samples in the neighbourhood for the targets from `first` on.
@@ -111,17 +118,19 @@ class Block {
     } else {
       sums = {&work_, own_.get(), sums_.get()};
     }
-    const std::size_t count = find_hits();
-    const std::size_t stride = work_.stride();
-    const float* const records = work_.records.data();
-    const float* const corners = corner_exponents_.data();
+    find_hits();
     std::uint64_t pairs = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      const float* const at = corners + std::size_t(hit_faces_[k]) * 3 * lanes_;
-      const FaceExponents<V> e{hn::LoadU(d_, at), hn::LoadU(d_, at + lanes_),
-                               hn::LoadU(d_, at + 2 * lanes_)};
-      pairs += sums.add(d_, e, records + std::size_t(hits_[k]) * stride);
-    }
+    const float* const records = work_.records.data();
+    const auto add_all = [&](const Hits& hits, auto is_sure) HWY_ATTR {
+      for (std::size_t k = 0; k < hits.count; ++k) {
+        const float* const at = corner_exponents_.data() + hits.faces[k];
+        const FaceExponents<V> e{hn::LoadU(d_, at), hn::LoadU(d_, at + lanes_),
+                                 hn::LoadU(d_, at + 2 * lanes_)};
+        pairs += sums.template add<decltype(is_sure)::value>(d_, e, records + hits.records[k]);
+      }
+    };
+    add_all(sure_, std::true_type());
+    add_all(maybe_, std::false_type());
     if constexpr (kChannels > 0) sums.store(d_, sums_.get());
     return pairs;
   }
@@ -148,11 +157,10 @@ class Block {
   }
 
  private:
-  /// Lists the samples that some target may have within the radius, over all faces, so that they
-  /// can be summed in one long loop: short ones cost more in mispredicted branches than in sums.
-  std::size_t find_hits() {
-    // A little less than the limit: the bound is rounded differently.
-    const float limit = work_.limit * 1.0001F - 1e-4F;
+  /// Lists the samples that targets may have within the radius, over all faces, so that they can be
+  /// summed in long loops: short ones cost more in mispredicted branches than in sums.
+  void find_hits() {
+    const float limit = loose_limit(work_), sure_limit = tight_limit(work_);
     // Faces first, without branches.
     near_faces_.resize(near_.faces.size());
     std::size_t faces = 0, samples = lanes_;
@@ -166,14 +174,13 @@ class Block {
       faces += is_near;
       samples += is_near ? face.end - face.begin : 0;
     }
-    if (hits_.size() < samples) {
-      hits_.resize(2 * samples);
-      hit_faces_.resize(2 * samples);
+    for (Hits* hits : {&sure_, &maybe_}) {
+      hits->reserve(samples);
+      hits->count = 0;
     }
     if (corner_exponents_.size() < faces * 3 * lanes_) {
       corner_exponents_.resize(2 * faces * 3 * lanes_);
     }
-    std::size_t count = 0;
     for (std::size_t i = 0; i < faces; ++i) {
       const Neighbourhood::Face& face = near_.faces[near_faces_[i]];
       const auto& n = face.corners;
@@ -181,6 +188,7 @@ class Block {
       V e1 = hn::Load(d_, exponents_.get() + n[1] * lanes_);
       V e2 = hn::Load(d_, exponents_.get() + n[2] * lanes_);
       FaceExponents<float> most{most_[n[0]], most_[n[1]], most_[n[2]]};
+      FaceExponents<float> least{least_[n[0]], least_[n[1]], least_[n[2]]};
       if (unreachable_[n[0]] | unreachable_[n[1]] | unreachable_[n[2]]) {
         const M apart = unreachable_lanes(face);
         if (hn::AllTrue(d_, apart)) continue;
@@ -189,17 +197,24 @@ class Block {
         e1 = hn::IfThenElse(apart, never, e1);
         e2 = hn::IfThenElse(apart, never, e2);
         most = {largest_lane(e0), largest_lane(e1), largest_lane(e2)};
+        least = {kNever, kNever, kNever};
       }
       float* const at = corner_exponents_.data() + i * 3 * lanes_;
       hn::StoreU(e0, d_, at);
       hn::StoreU(hn::Sub(e1, e0), d_, at + lanes_);
       hn::StoreU(hn::Sub(e2, e0), d_, at + 2 * lanes_);
-      most.to_corner1 -= most.corner0;
-      most.to_corner2 -= most.corner0;
-      count += HWY_NAMESPACE::find_hits(d_, work_, face.begin, face.end, most, limit, Index(i),
-                                        hits_.data() + count, hit_faces_.data() + count);
+      if (std::min({least.corner0, least.to_corner1, least.to_corner2}) >= sure_limit) {
+        // Variances only add to the exponents inside the face.
+        add_hits(d_, work_, face.begin, face.end, Index(i * 3 * lanes_), sure_);
+        continue;
+      }
+      for (FaceExponents<float>* x : {&most, &least}) {
+        x->to_corner1 -= x->corner0;
+        x->to_corner2 -= x->corner0;
+      }
+      HWY_NAMESPACE::find_hits(d_, work_, face.begin, face.end, most, least, Index(i * 3 * lanes_),
+                               sure_, maybe_);
     }
-    return count;
   }
 
   float largest_lane(V x) const { return hn::GetLane(hn::MaxOfLanes(d_, x)); }
@@ -247,6 +262,7 @@ class Block {
       }
       hn::Store(e, d_, exponents_.get() + k * lanes_);
       most_[k] = largest_lane(e);
+      least_[k] = hn::GetLane(hn::MinOfLanes(d_, e));
       unreachable_[k] = largest >= kUnreachable;
     }
   }
@@ -280,11 +296,11 @@ class Block {
   std::vector<Index> corners_;
   std::vector<const float*> rows_;
   hwy::AlignedFreeUniquePtr<float[]> barycentric_, exponents_, own_, sums_;
-  std::vector<float> most_;  ///< by node: the largest exponent of any target
+  std::vector<float> most_, least_;  ///< by node: the largest and smallest exponent of any target
   std::vector<Index> near_faces_;
   /// Per near face: the targets' exponents at corner 0, and the differences to it at the others.
   std::vector<float> corner_exponents_;
-  std::vector<Index> hits_, hit_faces_;    ///< records, and which of the near faces they are in
+  Hits sure_, maybe_;  ///< samples within the radius of all targets, or of some at most
   std::vector<std::uint8_t> unreachable_;  ///< by node: some target may not reach it
   HWY_ALIGN float variance_[hn::MaxLanes(D())] = {};
   HWY_ALIGN float apart_[hn::MaxLanes(D()) + 1] = {};

@@ -31,31 +31,73 @@ struct FaceExponents {
   T corner0, to_corner1, to_corner2;
 };
 
-/// Numbers of the records from `begin` to `end` that some target may have within the radius.
-/// `most`: the largest exponents of any target at the face's corners; so a sum of them by
-/// barycentrics is the most that a sample can have. Lanes are samples here. \param hits room for
-/// end - begin and a vector more \return how many there are
-HWY_INLINE std::size_t find_hits(D d, const KernelWork& work, std::size_t begin, std::size_t end,
-                                 const FaceExponents<float>& most, float limit, Index face,
-                                 Index* hits, Index* faces) {
+/// Records, and the corner exponents of the near face that each lies in: where they begin in their
+/// arrays, since computing that from numbers would take the sums' time.
+struct Hits {
+  std::vector<Index> records, faces;
+  std::size_t count = 0;
+
+  void reserve(std::size_t size) {
+    if (records.size() >= size) return;
+    records.resize(2 * size);
+    faces.resize(2 * size);
+  }
+};
+
+/// A little less and a little more than the limit, since bounds are rounded differently.
+inline float loose_limit(const KernelWork& work) { return work.limit * 1.0001F - 1e-4F; }
+inline float tight_limit(const KernelWork& work) { return work.limit * 0.9999F + 1e-4F; }
+
+/// List all records from `begin` to `end` of a face. \pre room for end - begin and a vector more
+HWY_INLINE void add_hits(D d, const KernelWork& work, std::size_t begin, std::size_t end,
+                         Index face, Hits& hits) {
   const hn::RebindToUnsigned<D> du;
   const std::size_t lanes = hn::Lanes(d);
-  const V e0 = hn::Set(d, most.corner0), e1 = hn::Set(d, most.to_corner1);
-  const V e2 = hn::Set(d, most.to_corner2), least = hn::Set(d, limit);
-  auto number = hn::Iota(du, Index(begin));
-  const auto step = hn::Set(du, Index(lanes)), same = hn::Set(du, face);
-  std::size_t count = 0;
+  const auto stride = hn::Set(du, Index(work.stride()));
+  auto record = hn::Mul(hn::Iota(du, Index(begin)), stride);
+  const auto step = hn::Set(du, Index(lanes * work.stride())), same = hn::Set(du, face);
   for (std::size_t k = begin; k < end; k += lanes) {
-    V x = hn::Add(e0, hn::LoadU(d, work.variance.data() + k));
-    x = hn::MulAdd(hn::LoadU(d, work.b1.data() + k), e1, x);
-    x = hn::MulAdd(hn::LoadU(d, work.b2.data() + k), e2, x);
-    const M hit = hn::And(hn::Ge(x, least), hn::FirstN(d, end - k));
-    hn::StoreU(hn::Compress(number, hn::RebindMask(du, hit)), du, hits + count);
-    hn::StoreU(same, du, faces + count);
-    count += hn::CountTrue(d, hit);
-    number = hn::Add(number, step);
+    hn::StoreU(record, du, hits.records.data() + hits.count + (k - begin));
+    hn::StoreU(same, du, hits.faces.data() + hits.count + (k - begin));
+    record = hn::Add(record, step);
   }
-  return count;
+  hits.count += end - begin;
+}
+
+/// Sort the records from `begin` to `end` of a face, whose exponents are at `face`, into those that
+/// all targets have within the radius and those that some may have. `most` and `least`: the largest
+/// and smallest exponents of any target at the face's corners; so sums of them by barycentrics are
+/// the most and the least that a sample can have. Lanes are samples here. \pre room for end - begin
+/// and a vector more in both
+HWY_INLINE void find_hits(D d, const KernelWork& work, std::size_t begin, std::size_t end,
+                          const FaceExponents<float>& most, const FaceExponents<float>& least,
+                          Index face, Hits& sure, Hits& maybe) {
+  const hn::RebindToUnsigned<D> du;
+  const std::size_t lanes = hn::Lanes(d);
+  const V some = hn::Set(d, loose_limit(work)), all = hn::Set(d, tight_limit(work));
+  const V e0 = hn::Set(d, most.corner0), e1 = hn::Set(d, most.to_corner1);
+  const V e2 = hn::Set(d, most.to_corner2), f0 = hn::Set(d, least.corner0);
+  const V f1 = hn::Set(d, least.to_corner1), f2 = hn::Set(d, least.to_corner2);
+  const auto stride = hn::Set(du, Index(work.stride()));
+  auto record = hn::Mul(hn::Iota(du, Index(begin)), stride);
+  const auto step = hn::Set(du, Index(lanes * work.stride())), same = hn::Set(du, face);
+  const auto append = [&](Hits& hits, M which) HWY_ATTR {
+    hn::StoreU(hn::Compress(record, hn::RebindMask(du, which)), du,
+               hits.records.data() + hits.count);
+    hn::StoreU(same, du, hits.faces.data() + hits.count);
+    hits.count += hn::CountTrue(d, which);
+  };
+  for (std::size_t k = begin; k < end; k += lanes) {
+    const V variance = hn::LoadU(d, work.variance.data() + k);
+    const V b1 = hn::LoadU(d, work.b1.data() + k), b2 = hn::LoadU(d, work.b2.data() + k);
+    const V x = hn::MulAdd(b2, e2, hn::MulAdd(b1, e1, hn::Add(e0, variance)));
+    const V y = hn::MulAdd(b2, f2, hn::MulAdd(b1, f1, hn::Add(f0, variance)));
+    const M in_face = hn::FirstN(d, end - k);
+    const M is_sure = hn::And(in_face, hn::Ge(y, all));
+    append(sure, is_sure);
+    append(maybe, hn::AndNot(is_sure, hn::And(in_face, hn::Ge(x, some))));
+    record = hn::Add(record, step);
+  }
 }
 
 /// The sums of a block: of weights, and of weighted values of up to 4 channels that all take part
@@ -74,7 +116,8 @@ struct Sums {
     }
   }
 
-  /// Add one sample. \return number of lanes within the radius
+  /// Add one sample. kSure: all lanes have it within the radius. \return number of lanes that do
+  template <bool kSure>
   HWY_INLINE std::size_t add(D d, const FaceExponents<V>& e, const float* HWY_RESTRICT record) {
     V x = hn::Add(e.corner0, hn::Set(d, record[2]));
     x = hn::MulAdd(hn::Set(d, record[0]), e.to_corner1, x);
@@ -92,15 +135,11 @@ struct Sums {
         x = hn::NegMulAdd(value[c], value[c], x);
       }
     }
-    V w;
-    if constexpr (kRange == RangeTerm::product) {
-      w = hn::IfThenElseZero(inside, exp2_in_range(d, x));
-    } else {
-      w = hn::IfThenElseZero(inside, exp2(d, x));
-    }
+    V w = kRange == RangeTerm::product ? exp2_in_range(d, x) : exp2(d, x);
+    if constexpr (!kSure) w = hn::IfThenElseZero(inside, w);
     weights = hn::Add(weights, w);
     for (int c = 0; c < kChannels; ++c) sum[c] = hn::MulAdd(w, value[c], sum[c]);
-    return hn::CountTrue(d, inside);
+    return kSure ? hn::Lanes(d) : hn::CountTrue(d, inside);
   }
 
   HWY_INLINE void store(D d, float* sums) const {
@@ -117,6 +156,7 @@ struct Sums<0, kRange> {
   const float* own = nullptr;
   float* sums = nullptr;
 
+  template <bool kSure>
   HWY_INLINE std::size_t add(D d, const FaceExponents<V>& e, const float* HWY_RESTRICT record) {
     const std::size_t lanes = hn::Lanes(d);
     const auto channels = std::size_t(work->channels), range = std::size_t(work->range_channels);
