@@ -10,9 +10,9 @@ namespace {
 
 constexpr std::array kPalettes{16, 32, 64};
 constexpr int kPlaces = 2, kPerPlace = 32;
-constexpr std::size_t kLeastSupported = 16;
+constexpr std::size_t kLeastSupported = 64;
 /// Support below which targets are summed directly at first, and at most.
-constexpr float kLittleSupport = 5, kMostSupport = 200;
+constexpr float kLittleSupport = 8, kMostSupport = 200;
 /// An error of an uncertain target that asks for more direct sums, in tolerances.
 constexpr double kFarOff = 16;
 

@@ -32,7 +32,7 @@ class CheckedNodes {
   /// The RMS error is measured on up to 64 targets of two places, picked by a hash of the patch;
   /// the palette grows from 16 colours until it is within the tolerance, up to 64. Targets with
   /// little support (the weights of less than a few texels) are summed directly; of the others, the
-  /// 16 with the least are checked too, and if one is far off, more are summed directly. \param
+  /// 64 with the least are checked too, and if one is far off, more are summed directly. \param
   /// kernel does the direct sums \return false if the patch is to be summed directly instead: its
   /// nodes are too coarse, or the
   ///   tolerance is not met

@@ -206,7 +206,8 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
                     : plan.sigma_spatial * (options.kind == FilterKind::bilateral ? 2.5 : 3.0);
   if (options.bridge) plan.bridge = resolved(*options.bridge);
   const bool depends_on_spacing = options.distance == DistanceMethod::heat ||
-                                  options.distance == DistanceMethod::cloud || plan.bridge > 0;
+                                  options.distance == DistanceMethod::cloud || plan.bridge > 0 ||
+                                  options.kind == FilterKind::gaussian;
   const NodeSpacing rule =
       node_spacing_for(plan.sigma_spatial, plan.texel_size, depends_on_spacing);
   plan.node_spacing = options.node_spacing ? resolved(*options.node_spacing) : rule.smooth;

@@ -35,8 +35,9 @@ struct NodeSpacing {
 /// folded surface, and its error falls with the square of the spacing over the radius of
 /// curvature), a quarter of sigma where distances bend, but with enough texels per node face to
 /// keep the kernel busy.
-/// \param depends_on_spacing distances themselves are only as good as the nodes are close (heat,
-///   cloud, bridges): sigma where the surface is smooth
+/// \param depends_on_spacing where the surface is smooth, sigma: distances are only as good as the
+///   nodes are close (heat, cloud, bridges), or the result is the distances' alone (Gaussian
+///   filter)
 NodeSpacing node_spacing_for(double sigma, double texel_size, bool depends_on_spacing);
 
 }  // namespace onmesh
