@@ -1,25 +1,45 @@
 #include "onmesh/samples.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "onmesh/texel_hits.h"
 
 namespace onmesh {
 namespace {
 
-// Sort located samples into node faces, keeping their order within a face.
+// Sort located samples into node faces, keeping their order within a face: a counting sort of
+// chunks, whose number does not show in the result.
 Samples sort_into_faces(std::vector<Sample> located, const std::vector<Index>& face_of,
                         Index node_faces) {
+  constexpr std::size_t kLeastChunk = 1 << 18;
+  const std::size_t size = located.size();
+  const std::size_t chunks = std::clamp<std::size_t>(
+      size / kLeastChunk, 1, std::size_t(std::min(8, tbb::this_task_arena::max_concurrency())));
+  const auto first = [&](std::size_t chunk) { return size * chunk / chunks; };
+  // Per chunk and face: how many there are, then where the next one goes.
+  std::vector<std::vector<Index>> places(chunks);
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+    places[c].assign(node_faces, 0);
+    for (std::size_t i = first(c); i < first(c + 1); ++i) ++places[c][face_of[i]];
+  });
   Samples out;
-  out.face_offsets.assign(node_faces + 1, 0);
-  for (const Index f : face_of) ++out.face_offsets[f + 1];
-  for (Index f = 0; f < node_faces; ++f) out.face_offsets[f + 1] += out.face_offsets[f];
-  std::vector<Index> next(out.face_offsets.begin(), out.face_offsets.end() - 1);
-  out.samples.resize(located.size());
-  for (std::size_t i = 0; i < located.size(); ++i) out.samples[next[face_of[i]]++] = located[i];
+  out.face_offsets.resize(node_faces + 1);
+  Index next = 0;
+  for (Index f = 0; f < node_faces; ++f) {
+    out.face_offsets[f] = next;
+    for (auto& place : places) next += std::exchange(place[f], next);
+  }
+  out.face_offsets[node_faces] = next;
+  out.samples.resize(size);
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+    for (std::size_t i = first(c); i < first(c + 1); ++i)
+      out.samples[places[c][face_of[i]]++] = located[i];
+  });
   return out;
 }
 
