@@ -90,8 +90,11 @@ void CheckedNodes::settle_uncertain(const KernelInput& input, Kernel& kernel,
     std::erase_if(order, [&](Index k) { return support_[k] < little; });
     const auto beyond =
         std::partition(order.begin(), order.end(), [&](Index k) { return support_[k] < next; });
-    const auto last = beyond + std::min<std::ptrdiff_t>(kLeastSupported, order.end() - beyond);
-    std::partial_sort(beyond, last, order.end(), [&](Index a, Index b) {
+    const auto doubtful =
+        std::partition(beyond, order.end(), [&](Index k) { return support_[k] < kMostSupport; });
+    const auto last = beyond + std::min<std::ptrdiff_t>(kLeastSupported, doubtful - beyond);
+    if (last == order.begin()) return;
+    std::partial_sort(beyond, last, doubtful, [&](Index a, Index b) {
       return std::pair(support_[a], a) < std::pair(support_[b], b);
     });
     std::fill(only_.begin(), only_.end(), 0);
