@@ -103,6 +103,7 @@ TEST_CASE("a small chart on a large surface needs few nodes and filters as well"
   FilterOptions options;
   options.kind = FilterKind::gaussian;
   options.sigma_spatial = {8, Length::Unit::texel};
+  options.node_spacing = Length{4, Length::Unit::texel};
   FilterReport whole, report;
   filter(mesh, texture, options, &whole);
   // All other faces lose their UVs: those around a point that lies off the centre of a chart.

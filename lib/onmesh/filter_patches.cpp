@@ -35,6 +35,10 @@ double target_weight(double targets, bool by_nodes, double targets_per_square_si
 bool choose_nodes(const PatchWork& work, const CheckedNodes::Size& size) {
   if (work.method != FilterMethod::automatic) return work.method == FilterMethod::nodes;
   constexpr double kNoTime = 2e9;
+  // Subnodes half as far apart as nodes, which are as far as the sides of equilateral faces.
+  const double squared_spacing = size.area / (size.nodes * 0.866);
+  const double sigma = work.kernel.sigma_spatial;
+  if (squared_spacing > 4 * sigma * sigma) return false;
   const double sums = CheckedNodes::cost_of_sums(size, work.kernel);
   return sums > kNoTime &&
          CheckedNodes::cost_of_nodes(size, work.kernel, work.colours.channels) < 0.5 * sums;

@@ -140,8 +140,10 @@ std::uint64_t estimate_memory(const Image& texture, const FilterPlan& plan) {
 
 }  // namespace
 
-NodeSpacing node_spacing_for(double sigma, double texel_size, bool depends_on_spacing) {
-  const double smooth = std::max((depends_on_spacing ? 1.0 : 1.5) * sigma, 4 * texel_size);
+NodeSpacing node_spacing_for(double sigma, double texel_size, bool depends_on_spacing,
+                             bool by_nodes) {
+  const double smooth = std::max((depends_on_spacing ? 1.0 : 1.5) * sigma,
+                                 (depends_on_spacing || by_nodes ? 4 : 10) * texel_size);
   const double finest = std::max(sigma / 4, 2 * texel_size);
   return {smooth, std::min(smooth, finest)};
 }
@@ -150,6 +152,8 @@ RefineOptions refinement_for(const FilterSetup& setup) {
   RefineOptions options;
   options.spacing = setup.plan.node_spacing;
   options.finest = setup.plan.finest_spacing;
+  // Near bends the spacing follows sigma, however large it is elsewhere.
+  options.sharpness = std::max(3.0, 2 * setup.plan.node_spacing / setup.plan.sigma_spatial);
   options.flat_faces = setup.plan.bridge > 0;
   options.needed.reserve(setup.mesh.faces.size());
   for (const double area : setup.map.texel_area) options.needed.push_back(area > 0);
@@ -208,8 +212,8 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   const bool depends_on_spacing = options.distance == DistanceMethod::heat ||
                                   options.distance == DistanceMethod::cloud || plan.bridge > 0 ||
                                   options.kind == FilterKind::gaussian;
-  const NodeSpacing rule =
-      node_spacing_for(plan.sigma_spatial, plan.texel_size, depends_on_spacing);
+  const NodeSpacing rule = node_spacing_for(plan.sigma_spatial, plan.texel_size, depends_on_spacing,
+                                            options.method == FilterMethod::nodes);
   plan.node_spacing = options.node_spacing ? resolved(*options.node_spacing) : rule.smooth;
   plan.finest_spacing = options.node_spacing ? plan.node_spacing / 4 : rule.finest;
 

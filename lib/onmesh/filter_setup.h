@@ -34,10 +34,13 @@ struct NodeSpacing {
 /// The spacing rule: 1.5 sigma where the surface is smooth (interpolation is exact on flat and
 /// folded surface, and its error falls with the square of the spacing over the radius of
 /// curvature), a quarter of sigma where distances bend, but with enough texels per node face to
-/// keep the kernel busy.
+/// keep the kernel busy and tables small: 10 texels where the surface is smooth.
 /// \param depends_on_spacing where the surface is smooth, sigma: distances are only as good as the
 ///   nodes are close (heat, cloud, bridges), or the result is the distances' alone (Gaussian
 ///   filter)
-NodeSpacing node_spacing_for(double sigma, double texel_size, bool depends_on_spacing);
+/// \param by_nodes the sums will be done on the nodes, which therefore follow sigma down to 4
+/// texels
+NodeSpacing node_spacing_for(double sigma, double texel_size, bool depends_on_spacing,
+                             bool by_nodes);
 
 }  // namespace onmesh

@@ -37,7 +37,10 @@ class GutterFill {
   void gather(const LaidFace& laid, const Vec2& from, const Vec2& pixel,
               const Eigen::Matrix3d& to_pixel, const Vec2& origin,
               std::vector<Support>& supports) const;
-  bool fit(const std::vector<Support>& supports, Index texel) const;
+  bool fit(const std::vector<Support>& supports, float* values) const;
+  void limit(const LaidFace& laid, const LaidFace& across, const Vec2& edge_point,
+             const Vec2& edge_pixel, const Vec2& centre, const Eigen::Matrix3d& to_pixel,
+             Index texel) const;
   void copy_nearest_claim(Index face, const Vec2& pixel, Index texel) const;
 
   const TriangleMesh& mesh_;
@@ -137,8 +140,9 @@ void GutterFill::gather(const LaidFace& laid, const Vec2& from, const Vec2& pixe
     }
 }
 
-/// The value at position 0 of the linear function fitted to the supports (weighted least squares).
-bool GutterFill::fit(const std::vector<Support>& supports, Index texel) const {
+/// The value at position 0 of the linear function fitted to the supports (weighted least squares);
+/// all channels of `values` but alpha are set.
+bool GutterFill::fit(const std::vector<Support>& supports, float* values) const {
   if (supports.empty()) return false;
   double sum = 0;
   Vec2 mean = Vec2::Zero();
@@ -177,9 +181,48 @@ bool GutterFill::fit(const std::vector<Support>& supports, Index texel) const {
       low = std::min(low, v);
       high = std::max(high, v);
     }
-    image_.texel(texel)[c] = std::clamp(float(value), low, high);
+    values[c] = std::clamp(float(value), low, high);
   }
   return true;
+}
+
+/// Keep the gutter texel between the chart's value as far inside and what makes their mean the
+/// value at the seam. Where the surface is smooth, that is where it is anyway. But an edge of the
+/// texture that lies just beyond the seam, within one texel of this chart though not of a finer one
+/// there, would be drawn onto this side by bilinear look-ups.
+void GutterFill::limit(const LaidFace& laid, const LaidFace& across, const Vec2& edge_point,
+                       const Vec2& edge_pixel, const Vec2& centre, const Eigen::Matrix3d& to_pixel,
+                       Index texel) const {
+  std::vector<Support> supports;
+  const Vec2 mirrored = 2 * edge_pixel - centre;
+  gather(laid, edge_pixel, mirrored, to_pixel, mirrored, supports);
+  if (supports.empty()) return;
+  // At that point, or the mean around it where the chart ends too soon to tell.
+  std::vector<float> inside(std::size_t(image_.channels)), around(inside), seam(inside);
+  double sum = 0;
+  for (const Support& s : supports) sum += s.weight;
+  for (const int c : channels_) {
+    double value = 0;
+    for (const Support& s : supports) value += s.weight / sum * double(image_.texel(s.texel)[c]);
+    around[std::size_t(c)] = float(value);
+  }
+  if (!fit(supports, inside.data())) inside = around;
+  supports.clear();
+  gather(laid, edge_pixel, edge_pixel, to_pixel, edge_pixel, supports);
+  const Vec3 b = barycentric_in(across.corners, edge_point);
+  const auto corners = walk_.pixel_corners(across.face);
+  const Vec2 there = b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2];
+  gather(across, there, there, to_pixel, edge_pixel, supports);
+  if (!fit(supports, seam.data())) return;
+  for (const int channel : channels_) {
+    const auto c = std::size_t(channel);
+    const bool at_point = std::abs(inside[c] - seam[c]) >= std::abs(around[c] - seam[c]);
+    const float in = at_point ? inside[c] : around[c], out = 2 * seam[c] - in;
+    // A linear texture is to go on whatever rounding says.
+    const float slack = 1e-5F * std::abs(out - in);
+    float& value = image_.texel(texel)[channel];
+    value = std::clamp(value, std::min(in, out) - slack, std::max(in, out) + slack);
+  }
 }
 
 /// The claim nearest to the pixel among those of the first face, going outward from this one over
@@ -243,13 +286,20 @@ void GutterFill::fill(Index texel, const NearestEdge& nearest) const {
   const Vec3 b = barycentric_in(end.laid.corners, end.point);
   const auto corners = walk_.pixel_corners(end.laid.face);
   const Vec2 there = b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2];
-  if (bilinear(end.laid, there, texel)) return;
-  const Vec2 here =
-      end.arrived ? centre : Vec2((to_pixel * Vec3(end.point.x(), end.point.y(), 1)).head<2>());
-  std::vector<Support> supports;
-  gather(laid, edge_pixel, here, to_pixel, here, supports);
-  if (end.laid.face != face) gather(end.laid, there, there, to_pixel, here, supports);
-  if (!fit(supports, texel)) copy_nearest_claim(face, centre, texel);
+  if (!bilinear(end.laid, there, texel)) {
+    const Vec2 here =
+        end.arrived ? centre : Vec2((to_pixel * Vec3(end.point.x(), end.point.y(), 1)).head<2>());
+    std::vector<Support> supports;
+    gather(laid, edge_pixel, here, to_pixel, here, supports);
+    if (end.laid.face != face) gather(end.laid, there, there, to_pixel, here, supports);
+    if (!fit(supports, image_.texel(texel))) return copy_nearest_claim(face, centre, texel);
+  }
+  // The face right across the seam.
+  constexpr double kStep = 1e-3;
+  const WalkEnd across =
+      walk_.over_surface(laid, edge_point, edge_point + kStep * (laid.point(beyond) - edge_point));
+  if (across.laid.face != face && map_.chart_of_face[across.laid.face] != kNone)
+    limit(laid, across.laid, edge_point, edge_pixel, centre, to_pixel, texel);
 }
 
 }  // namespace

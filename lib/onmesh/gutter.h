@@ -14,7 +14,9 @@ namespace onmesh {
 /// extended in its plane and unfolded over the seam (where several faces meet, into the one that
 /// goes on most straight), would have it: looked up bilinearly among covered texels of the chart
 /// found there, or, right at the seam, fitted linearly to covered texels on both its sides. Where
-/// the surface ends, the value at the closest point of the chart is taken. Values stay within those
+/// the surface ends, the value at the closest point of the chart is taken. Details that lie within
+/// a texel beyond the seam are not drawn onto this side: the value is kept between the chart's own,
+/// as far inside, and what makes the mean of both the value at the seam. Values stay within those
 /// they come from; constant textures stay constant, and a linear one on a flat surface goes on
 /// linearly. With one ring or more, bilinear look-ups on charts see no other texels than covered
 /// and filled ones. Covered texels are read and not changed, nor is any alpha channel. Rings wrap

@@ -160,7 +160,7 @@ void settle_range_term(const Extremes& extremes, KernelWork& work) {
   for (float& c : work.target_colours) c *= 2;
 }
 
-/// Groups of core faces that lie together and have some hundred targets each, one group next to its
+/// Groups of core faces that lie together and have some thousand targets each, one group next to its
 /// predecessor where possible.
 class FaceGroups {
  public:
@@ -210,7 +210,7 @@ class FaceGroups {
   }
 
  private:
-  static constexpr Index kGroupTargets = 512;
+  static constexpr Index kGroupTargets = 2048;
 
   Index count(Index f) const {
     const Index global = patch_.faces[f];

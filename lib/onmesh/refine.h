@@ -12,6 +12,8 @@ struct RefineOptions {
   double spacing = 0;  ///< node spacing where the surface is smooth, mesh units, > 0
   double finest =
       0;  ///< spacing at cones, creases and reflex corners, (0, spacing]; 0 = spacing / 4
+  double sharpness =
+      3;  ///< a vertex where distances bend by b radians: spacing / (1 + sharpness b)
   double growth = 0.25;  ///< how fast the spacing grows away from them, per unit of distance
   double min_angle_degrees = 25;  ///< Delaunay refinement's angle bound, [0, 30]
   /// Refine by bisection, so that node faces are flat in space: bridges, whose lengths are

@@ -129,7 +129,7 @@ std::vector<double> wanted_spacing(const TriangleMesh& mesh, const EdgeTable& ed
     if (link_of[v] != kNone) {
       bend = around[v].faces > kLargestLink ? kSharpestBend : links[link_of[v]].bend();
     }
-    spacing[v] = std::max(finest, options.spacing / (1 + 3 * bend));
+    spacing[v] = std::max(finest, options.spacing / (1 + options.sharpness * bend));
     if (spacing[v] < options.spacing) front.emplace(spacing[v], v);
   }
   if (front.empty()) return spacing;
