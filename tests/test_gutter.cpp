@@ -183,6 +183,31 @@ TEST_CASE("a piece cut out of a flat sheet leaves no seam in a linear texture", 
   }
 }
 
+TEST_CASE("an edge of the texture just beyond a seam is not drawn onto a coarser chart",
+          "[gutter]") {
+  // The right half has five times as many texels per length; it is black from 0.4 of the left
+  // half's texels on. The left half is white.
+  const TriangleMesh mesh = cut(
+      grid(2), [](Index f) { return int(f / 2 % 2); },
+      [](int g, const Vec2& uv) {
+        return g == 0 ? Vec2(0.02 + 0.2 * uv.x(), 0.02 + 0.2 * uv.y())
+                      : Vec2(0.4 + (uv.x() - 0.5), 0.02 + 0.96 * uv.y());
+      });
+  const int size = 200;
+  const TexelMap map = make_texel_map(mesh, size, size);
+  REQUIRE(map.charts == 2);
+  const double edge = 0.5 + 0.4 / (0.2 * size);
+  Image image = paint(
+      mesh, map, [&](const Vec3& p) { return p.x() < edge ? 1.0 : 0.0; }, 0);
+  fill_gutter(mesh, map, 2, image);
+  CHECK(seam_error(mesh, map, image).max < 1e-5);
+  // On the finer chart's side nothing is hidden: its gutter shows the white half.
+  const std::vector<Index> filled = fill_gutter(mesh, map, 2, image);
+  std::size_t white = 0;
+  for (const Index texel : filled) white += *image.texel(texel) == 1;
+  CHECK(white > 100);
+}
+
 TEST_CASE("a constant texture stays constant to the bit", "[gutter]") {
   for (const float value : {0.1F, 0.7F, -3.3F}) {
     for (const TriangleMesh& mesh : {halves(6), cube(1), cube(5)}) {

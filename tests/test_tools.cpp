@@ -106,6 +106,7 @@ TEST_CASE("filter refuses parameters outside their domain with 2", "[tools][filt
   check_refused(space, base + "--radius 0", 2, "--radius");
   check_refused(space, base + "--gutter -1", 2, "--gutter");
   check_refused(space, base + "--kind box", 2, "--kind");
+  check_refused(space, base + "--node-spacing 1e-9", 2, "--node-spacing");
   check_refused(space, base + "--overlap both", 2, "--overlap");
   check_refused(space, base + "--sigma-spacial 1", 2, "did you mean --sigma-spatial?");
   check_refused(space, "filter m.obj", 2, "--output");
@@ -133,6 +134,11 @@ TEST_CASE("files that cannot be read or written exit with 4", "[tools]") {
   check_refused(space, "view m.obj -o no/p.png", 4, "no/p.png: ");
   check_refused(space, "filter m.obj -o no/o.png", 4, "no/o.png: ");
   check_refused(space, "sample m.obj -t m.png -o no/s.ply", 4, "no/s.ply: ");
+  check_refused(space, "filter m.obj -o folder.obj", 4, "folder.obj: cannot write here");
+  std::ofstream(space / "udim.mtl") << "newmtl m\nmap_Kd skin.<UDIM>.png\n";
+  std::ofstream(space / "udim.obj") << "mtllib udim.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                                       "vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";
+  check_refused(space, "filter udim.obj -o o.png", 4, "UDIM tiles");
 }
 
 TEST_CASE("wrong input exits with 3 and names the file", "[tools]") {

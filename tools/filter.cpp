@@ -33,7 +33,7 @@ Command make_command() {
   add("mesh", text());
   add("output,o", text(), "the texture to write; may be the input texture itself");
   add("texture,t", text(), "the texture to filter (default: the one the mesh's material names)");
-  add("material", text(), "filter on the faces of this material; 'all' = on all faces");
+  add("material", text(), "filter on the faces of this material; with -t 'all' = on all faces");
   add("kind", text("bilateral"), "bilateral (keeps edges) or gaussian (blurs)");
   add("sigma-spatial", text("4tx"), "length: width of the filter on the surface");
   add("sigma-range", text("0.1"),

@@ -76,7 +76,7 @@ std::vector<Index> only_texture(const TriangleMesh& mesh, const std::vector<Inde
   const fs::path first = mesh.materials[candidates[0]].texture;
   for (const Index m : candidates) {
     if (!same_file(mesh.materials[m].texture, first)) {
-      throw UsageError("the mesh has several textured materials, choose one with --material: " +
+      throw UsageError("the mesh has several textures, choose one with --material or -t: " +
                        list_of(mesh, candidates));
     }
   }

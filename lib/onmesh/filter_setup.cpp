@@ -11,6 +11,9 @@
 namespace onmesh {
 namespace {
 
+/// So many nodes need some 45 GB.
+constexpr double kMostNodes = 5e7;
+
 void require_positive(const char* flag, double value) {
   if (!(value > 0) || !std::isfinite(value)) {
     throw UsageError(std::string(flag) + ": must be positive and finite");
@@ -91,6 +94,22 @@ TriangleMesh cleaned(const TriangleMesh& mesh, std::vector<bool>& faces, CleanRe
                        "; it is filtered across them");
   }
   return clean_mesh;
+}
+
+/// Charts beside the image's own tile repeat it, which is meant for tiling textures, but not for
+/// UDIM.
+void warn_of_tiles(const TriangleMesh& mesh, const TexelMap& map,
+                   std::vector<std::string>& warnings) {
+  Index outside = 0;
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    if (map.chart_of_face[f] == kNone) continue;
+    const auto uvs = mesh.corner_uvs(f);
+    const Vec2 centre = (uvs[0] + uvs[1] + uvs[2]) / 3;
+    outside += (centre.array() < 0).any() || (centre.array() > 1).any();
+  }
+  if (outside == 0) return;
+  warnings.push_back(faces_text(outside) +
+                     " with UVs outside [0,1]: the image is repeated there, or cut off (--wrap)");
 }
 
 void require_claims(const TriangleMesh& mesh, const TexelMap& map, const std::vector<bool>& faces) {
@@ -192,6 +211,7 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   for (Vec3& p : setup.mesh.positions) p /= setup.unit;
   setup.map = make_texel_map(setup.mesh, texture.width, texture.height, {options.wrap, faces});
   require_claims(setup.mesh, setup.map, faces);
+  warn_of_tiles(setup.mesh, setup.map, plan.warnings);
   const std::vector<Index> overlapped = setup.map.overlapped();
   check_overlaps(setup.map, overlapped, options.overlap, plan.warnings);
 
@@ -241,6 +261,10 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   for (Index f = 0; f < setup.mesh.faces.size(); ++f) {
     const double spacing = refinement.spacing + remoteness({f, Vec3::Constant(1.0 / 3)});
     nodes += 1.2 * setup.mesh.face_area(f) / (spacing * spacing * std::numbers::sqrt3 / 2);
+  }
+  if (options.node_spacing && nodes > kMostNodes) {
+    throw UsageError("--node-spacing: would make about " + std::to_string(std::uint64_t(nodes)) +
+                     " nodes, more than fit in memory; choose a larger one");
   }
   plan.nodes = static_cast<std::uint64_t>(nodes);
   plan.memory_bytes = estimate_memory(texture, plan);

@@ -72,6 +72,11 @@ void check_readable(const std::filesystem::path& path) {
     throw FileError(path.string() + ": cannot read the image: it is a folder");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
+  if (!file && path.string().find("<UDIM>") != std::string::npos) {
+    throw FileError(path.string() +
+                    ": cannot open the image: the mesh names UDIM tiles, which are not supported; "
+                    "split it by tile and give each its image with -t");
+  }
   if (!file) {
     throw FileError(path.string() +
                     ": cannot open the image: " + std::strerror(errno ? errno : ENOENT));

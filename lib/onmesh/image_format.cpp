@@ -93,6 +93,9 @@ void choose_compression(OIIO::ImageSpec& spec, const ImageFormat& format,
 }  // namespace
 
 const ImageFormat& image_format(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error))
+    throw FileError(path.string() + ": cannot write here: it is a folder");
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });

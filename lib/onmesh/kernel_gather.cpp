@@ -160,8 +160,8 @@ void settle_range_term(const Extremes& extremes, KernelWork& work) {
   for (float& c : work.target_colours) c *= 2;
 }
 
-/// Groups of core faces that lie together and have some thousand targets each, one group next to its
-/// predecessor where possible.
+/// Groups of core faces that lie together and have some thousand targets each, one group next to
+/// its predecessor where possible.
 class FaceGroups {
  public:
   FaceGroups(const Patch& patch, const Samples& targets)
