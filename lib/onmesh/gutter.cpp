@@ -25,6 +25,8 @@ struct Support {
 
 /// Texel centres further than this from the point, in either direction, do not count in a fit.
 constexpr double kFitReach = 2;
+/// A chart with so many times the texels per length may hold details that a coarser one cannot.
+constexpr double kMuchFiner = 1.4;
 
 class GutterFill {
  public:
@@ -39,8 +41,8 @@ class GutterFill {
               std::vector<Support>& supports) const;
   bool fit(const std::vector<Support>& supports, float* values) const;
   void limit(const LaidFace& laid, const LaidFace& across, const Vec2& edge_point,
-             const Vec2& edge_pixel, const Vec2& centre, const Eigen::Matrix3d& to_pixel,
-             Index texel) const;
+             const Vec2& beyond, const Vec2& edge_pixel, const Vec2& centre,
+             const Eigen::Matrix3d& to_pixel, Index texel) const;
   void copy_nearest_claim(Index face, const Vec2& pixel, Index texel) const;
 
   const TriangleMesh& mesh_;
@@ -191,8 +193,17 @@ bool GutterFill::fit(const std::vector<Support>& supports, float* values) const 
 /// texture that lies just beyond the seam, within one texel of this chart though not of a finer one
 /// there, would be drawn onto this side by bilinear look-ups.
 void GutterFill::limit(const LaidFace& laid, const LaidFace& across, const Vec2& edge_point,
-                       const Vec2& edge_pixel, const Vec2& centre, const Eigen::Matrix3d& to_pixel,
-                       Index texel) const {
+                       const Vec2& beyond, const Vec2& edge_pixel, const Vec2& centre,
+                       const Eigen::Matrix3d& to_pixel, Index texel) const {
+  const auto corners = walk_.pixel_corners(across.face);
+  const auto pixel_at = [&](const Vec2& point) {
+    const Vec3 b = barycentric_in(across.corners, point);
+    return Vec2(b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2]);
+  };
+  const Vec2 there = pixel_at(edge_point);
+  // Nothing is hidden from this chart that is no finer there.
+  const double finer = (pixel_at(beyond) - there).norm() / (centre - edge_pixel).norm();
+  if (!(finer > kMuchFiner)) return;
   std::vector<Support> supports;
   const Vec2 mirrored = 2 * edge_pixel - centre;
   gather(laid, edge_pixel, mirrored, to_pixel, mirrored, supports);
@@ -209,9 +220,6 @@ void GutterFill::limit(const LaidFace& laid, const LaidFace& across, const Vec2&
   if (!fit(supports, inside.data())) inside = around;
   supports.clear();
   gather(laid, edge_pixel, edge_pixel, to_pixel, edge_pixel, supports);
-  const Vec3 b = barycentric_in(across.corners, edge_point);
-  const auto corners = walk_.pixel_corners(across.face);
-  const Vec2 there = b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2];
   gather(across, there, there, to_pixel, edge_pixel, supports);
   if (!fit(supports, seam.data())) return;
   for (const int channel : channels_) {
@@ -299,7 +307,7 @@ void GutterFill::fill(Index texel, const NearestEdge& nearest) const {
   const WalkEnd across =
       walk_.over_surface(laid, edge_point, edge_point + kStep * (laid.point(beyond) - edge_point));
   if (across.laid.face != face && map_.chart_of_face[across.laid.face] != kNone)
-    limit(laid, across.laid, edge_point, edge_pixel, centre, to_pixel, texel);
+    limit(laid, across.laid, edge_point, laid.point(beyond), edge_pixel, centre, to_pixel, texel);
 }
 
 }  // namespace
