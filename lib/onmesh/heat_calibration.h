@@ -11,7 +11,7 @@ namespace onmesh::heat {
 /// than the reach of the tables (filter_patches.cpp): about what two rings of nodes cover where the
 /// spacing is sigma. A fixed share, so that finer nodes leave no more of the kernel to heat, and
 /// err less.
-inline constexpr double kNearShare = 0.8;
+inline constexpr double kNearShare = 0.88;
 
 /// The heat method's solution is a distance up to a constant, and to an error that depends on the
 /// direction: the front keeps something of the directions of the faces around the source. Along a
