@@ -66,8 +66,7 @@ struct StageTime {
 
 struct FilterReport {
   std::string backend, backend_reason, instruction_set;
-  std::string
-      refinement;  ///< "intrinsic", or "bisection" where parts are bridged
+  std::string refinement;  ///< "intrinsic", or "bisection" where parts are bridged
   /// Mesh units; sample spacings in Poisson mode only.
   double sigma_spatial = 0, radius = 0, node_spacing = 0, texel_size = 0;
   double sample_spacing = 0, largest_sample_spacing = 0;
