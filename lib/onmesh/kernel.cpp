@@ -3,6 +3,7 @@
 #include <hwy/aligned_allocator.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -34,9 +35,14 @@ class Neighbourhood {
     std::array<Index, 3> corners;  ///< into nodes
     float slack;
     std::size_t begin, end;  ///< records
+    Index number;            ///< in KernelWork::faces
   };
   std::vector<Index> nodes;  ///< local nodes of the patch
   std::vector<Face> faces;
+  /// The faces' corners and slacks once more, padded by a vector.
+  std::array<std::vector<std::int32_t>, 3> corners;
+  std::vector<float> slacks;
+  std::size_t samples = 0;  ///< in all faces
 
   Neighbourhood(const KernelInput& input, const KernelWork& work)
       : table_(*input.table),
@@ -64,20 +70,29 @@ class Neighbourhood {
     }
     nodes.clear();
     faces.clear();
+    samples = 0;
+    for (auto& corner : corners) corner.clear();
+    slacks.clear();
     std::fill(index_.begin(), index_.end(), kNone);
-    for (const KernelWork::Face& face : work_.faces) {
+    for (Index f = 0; f < work_.faces.size(); ++f) {
+      const KernelWork::Face& face = work_.faces[f];
       const auto& n = face.corners;
       const float farthest = std::max({nearest_[n[0]], nearest_[n[1]], nearest_[n[2]]});
       if (farthest > work_.reach_squared) continue;
-      Face& near = faces.emplace_back(Face{{}, face.slack, face.begin, face.end});
+      Face& near = faces.emplace_back(Face{{}, face.slack, face.begin, face.end, f});
       for (int i = 0; i < 3; ++i) {
         if (index_[n[i]] == kNone) {
           index_[n[i]] = Index(nodes.size());
           nodes.push_back(n[i]);
         }
         near.corners[i] = index_[n[i]];
+        corners[i].push_back(std::int32_t(index_[n[i]]));
       }
+      slacks.push_back(face.slack);
+      samples += face.end - face.begin;
     }
+    for (auto& corner : corners) corner.resize(faces.size() + hn::Lanes(D()), 0);
+    slacks.resize(faces.size() + hn::Lanes(D()), 0);
   }
 
  private:
@@ -104,6 +119,7 @@ class Block {
         sums_(hwy::AllocateAligned<float>((channels_ + 1) * lanes_)),
         most_(table_.columns),
         least_(table_.columns),
+        corner_exponents_(hwy::AllocateAligned<float>(work.faces.size() * 3 * lanes_)),
         unreachable_(table_.columns) {}
 
   /// Sum over all samples in the neighbourhood for the targets from `first` on.
@@ -121,16 +137,27 @@ class Block {
     find_hits();
     std::uint64_t pairs = 0;
     const float* const records = work_.records.data();
-    const auto add_all = [&](const Hits& hits, auto is_sure) HWY_ATTR {
-      for (std::size_t k = 0; k < hits.count; ++k) {
-        const float* const at = corner_exponents_.data() + hits.faces[k];
-        const FaceExponents<V> e{hn::LoadU(d_, at), hn::LoadU(d_, at + lanes_),
-                                 hn::LoadU(d_, at + 2 * lanes_)};
-        pairs += sums.template add<decltype(is_sure)::value>(d_, e, records + hits.records[k]);
-      }
+    const float* const corner_exponents = corner_exponents_.get();
+    const auto exponents_of = [&](const float* record) HWY_ATTR {
+      const float* const at =
+          corner_exponents + std::size_t(std::bit_cast<Index>(record[4])) * 3 * hn::Lanes(D());
+      return FaceExponents<V>{hn::Load(d_, at), hn::Load(d_, at + hn::Lanes(D())),
+                              hn::Load(d_, at + 2 * hn::Lanes(D()))};
     };
-    add_all(sure_, std::true_type());
-    add_all(maybe_, std::false_type());
+    for (std::size_t k = 0; k < hits_.sure.count; ++k) {
+      const float* const record = records + hits_.sure.records[k];
+      sums.add_sure(d_, exponents_of(record), record);
+    }
+    for (std::size_t k = 0; k < hits_.edge.count; ++k) {
+      const float* const record = records + hits_.edge.records[k];
+      pairs += sums.add_edge(d_, exponents_of(record), record);
+    }
+    const V limit = hn::Set(d_, work_.limit);
+    for (std::size_t k = 0; k < hits_.general.count; ++k) {
+      const float* const record = records + hits_.general.records[k];
+      pairs += sums.add(d_, limit, exponents_of(record), record);
+    }
+    pairs += hits_.sure.count * lanes_;
     if constexpr (kChannels > 0) sums.store(d_, sums_.get());
     return pairs;
   }
@@ -161,27 +188,9 @@ class Block {
   /// summed in long loops: short ones cost more in mispredicted branches than in sums.
   void find_hits() {
     const float limit = loose_limit(work_), sure_limit = tight_limit(work_);
-    // Faces first, without branches.
-    near_faces_.resize(near_.faces.size());
-    std::size_t faces = 0, samples = lanes_;
-    for (std::size_t f = 0; f < near_.faces.size(); ++f) {
-      const Neighbourhood::Face& face = near_.faces[f];
-      const auto& n = face.corners;
-      // d^2 at a sample is at least the smallest of the corners' less the sample's variance.
-      const float most = std::max({most_[n[0]], most_[n[1]], most_[n[2]]});
-      const bool is_near = most + face.slack >= limit;
-      near_faces_[faces] = Index(f);
-      faces += is_near;
-      samples += is_near ? face.end - face.begin : 0;
-    }
-    for (Hits* hits : {&sure_, &maybe_}) {
-      hits->reserve(samples);
-      hits->count = 0;
-    }
-    if (corner_exponents_.size() < faces * 3 * lanes_) {
-      corner_exponents_.resize(2 * faces * 3 * lanes_);
-    }
-    for (std::size_t i = 0; i < faces; ++i) {
+    list_near_faces(limit);
+    hits_.clear(near_.samples + lanes_);
+    for (std::size_t i = 0; i < near_face_count_; ++i) {
       const Neighbourhood::Face& face = near_.faces[near_faces_[i]];
       const auto& n = face.corners;
       V e0 = hn::Load(d_, exponents_.get() + n[0] * lanes_);
@@ -199,21 +208,44 @@ class Block {
         most = {largest_lane(e0), largest_lane(e1), largest_lane(e2)};
         least = {kNever, kNever, kNever};
       }
-      float* const at = corner_exponents_.data() + i * 3 * lanes_;
-      hn::StoreU(e0, d_, at);
-      hn::StoreU(hn::Sub(e1, e0), d_, at + lanes_);
-      hn::StoreU(hn::Sub(e2, e0), d_, at + 2 * lanes_);
-      if (std::min({least.corner0, least.to_corner1, least.to_corner2}) >= sure_limit) {
-        // Variances only add to the exponents inside the face.
-        add_hits(d_, work_, face.begin, face.end, Index(i * 3 * lanes_), sure_);
+      float* const at = corner_exponents_.get() + face.number * 3 * lanes_;
+      hn::Store(e0, d_, at);
+      hn::Store(hn::Sub(e1, e0), d_, at + lanes_);
+      hn::Store(hn::Sub(e2, e0), d_, at + 2 * lanes_);
+      // Variances only add to the exponents inside the face.
+      if (std::min({least.corner0, least.to_corner1, least.to_corner2}) >= sure_limit &&
+          std::max({most.corner0, most.to_corner1, most.to_corner2}) + face.slack <= 0) {
+        add_hits(d_, work_, face.begin, face.end, hits_.sure);
         continue;
       }
       for (FaceExponents<float>* x : {&most, &least}) {
         x->to_corner1 -= x->corner0;
         x->to_corner2 -= x->corner0;
       }
-      HWY_NAMESPACE::find_hits(d_, work_, face.begin, face.end, most, least, Index(i * 3 * lanes_),
-                               sure_, maybe_);
+      HWY_NAMESPACE::find_hits(d_, work_, face.begin, face.end, most, least, hits_);
+    }
+  }
+
+  /// List the faces that may have samples beyond the limit; lanes are faces.
+  void list_near_faces(float limit) {
+    const hn::RebindToSigned<D> di;
+    const std::size_t faces = near_.faces.size();
+    if (near_faces_.size() < faces + lanes_) near_faces_.resize(2 * (faces + lanes_));
+    near_face_count_ = 0;
+    auto number = hn::Iota(di, 0);
+    for (std::size_t f = 0; f < faces; f += lanes_) {
+      const auto most_at = [&](int corner) HWY_ATTR {
+        return hn::GatherIndex(d_, most_.data(), hn::LoadU(di, near_.corners[corner].data() + f));
+      };
+      // d^2 at a sample is at least the smallest of the corners' less the sample's variance.
+      const V most = hn::Max(most_at(0), hn::Max(most_at(1), most_at(2)));
+      const M is_near =
+          hn::And(hn::Ge(hn::Add(most, hn::LoadU(d_, near_.slacks.data() + f)), hn::Set(d_, limit)),
+                  hn::FirstN(d_, faces - f));
+      hn::StoreU(hn::Compress(number, hn::RebindMask(di, is_near)), di,
+                 near_faces_.data() + near_face_count_);
+      near_face_count_ += hn::CountTrue(d_, is_near);
+      number = hn::Add(number, hn::Set(di, std::int32_t(lanes_)));
     }
   }
 
@@ -297,17 +329,18 @@ class Block {
   std::vector<const float*> rows_;
   hwy::AlignedFreeUniquePtr<float[]> barycentric_, exponents_, own_, sums_;
   std::vector<float> most_, least_;  ///< by node: the largest and smallest exponent of any target
-  std::vector<Index> near_faces_;
-  /// Per near face: the targets' exponents at corner 0, and the differences to it at the others.
-  std::vector<float> corner_exponents_;
-  Hits sure_, maybe_;  ///< samples within the radius of all targets, or of some at most
+  std::vector<std::int32_t> near_faces_;
+  std::size_t near_face_count_ = 0;
+  /// Per face: the targets' exponents at corner 0, and the differences to it at the others.
+  hwy::AlignedFreeUniquePtr<float[]> corner_exponents_;
+  Hits hits_;
   std::vector<std::uint8_t> unreachable_;  ///< by node: some target may not reach it
   HWY_ALIGN float variance_[hn::MaxLanes(D())] = {};
   HWY_ALIGN float apart_[hn::MaxLanes(D()) + 1] = {};
 };
 
 /// Vectors of targets that share a neighbourhood.
-constexpr std::size_t kBlocksTogether = 8;
+constexpr std::size_t kBlocksTogether = 16;
 
 template <int kChannels, RangeTerm kRange>
 KernelCounts run_blocks(const KernelInput& input, const KernelWork& work, std::vector<float>& out) {

@@ -1,19 +1,22 @@
 #include "onmesh/kernel_gather.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <numbers>
+
+#include "onmesh/exponent_unit.h"
 
 namespace onmesh {
 namespace {
 
 /// Below this log2 of its area relative to the patch's largest a sample counts for nothing.
-constexpr float kNoArea = -120;
+constexpr float kNoArea = -120 * kExponentUnit;
 /// Largest square of a scaled colour for which the product term is used, and least exponent of a
-/// sample without its colour: then all exponents are in the range of exp2_in_range(), and exact to
+/// sample without its colour: then all exponents are in the range of exp2_of_units(), and exact to
 /// 1e-5.
-constexpr float kLargestProduct = 27, kLeastExponent = -42;
+constexpr float kLargestProduct = 27 * kExponentUnit, kLeastExponent = -42 * kExponentUnit;
 
 Vec3 barycentric(const Sample& s) { return {1.0 - s.b1 - s.b2, s.b1, s.b2}; }
 
@@ -63,7 +66,7 @@ Extremes gather_samples(const KernelInput& input, double variance_scale,
   const Samples& sources = *input.sources;
   const Colours& colours = input.colours;
   const int channels = kChannels > 0 ? kChannels : work.channels;
-  const float scale = work.colour_scale, limit = work.limit;
+  const float scale = work.colour_scale, usable_scale = work.usable_scale, limit = work.limit;
   const float* const reference = work.reference.data();
 
   std::size_t count = 0;
@@ -92,23 +95,25 @@ Extremes gather_samples(const KernelInput& input, double variance_scale,
     KernelWork::Face face;
     face.corners = patch.corners[local];
     face.begin = used;
+    const auto number = static_cast<std::uint32_t>(work.faces.size());
     for (Index k = sources.face_offsets[f]; k < sources.face_offsets[f + 1]; ++k) {
       const Sample& s = sources.samples[k];
       const float* const colour =
           colours.values + std::size_t(s.texel) * std::size_t(colours.stride);
       if (s.area != last_area) {
         last_area = s.area;
-        log_area = std::log2(s.area * inverse_area);  // -inf or NaN where there is no area
+        // -inf or NaN where there is no area
+        log_area = std::log2(s.area * inverse_area) * kExponentUnit;
       }
-      if (!(log_area > kNoArea) || !is_usable(colour, channels, scale)) continue;
+      if (!(log_area > kNoArea) || !is_usable(colour, channels, usable_scale)) continue;
       const float b0 = 1 - s.b1 - s.b2;
       const float variance =
           b0 * s.b1 * squared[0] + s.b1 * s.b2 * squared[1] + s.b2 * b0 * squared[2];
       record[0] = s.b1;
       record[1] = s.b2;
       record[2] = variance + log_area;
-      record[3] = log_area;
-      record[4] = limit + log_area;
+      record[3] = limit - variance;
+      record[4] = std::bit_cast<float>(number);
       float square = 0;
       for (int c = 0; c < channels; ++c) {
         const float y = (colour[c] - reference[c]) * scale;
@@ -155,7 +160,7 @@ void settle_range_term(const Extremes& extremes, KernelWork& work) {
   for (std::size_t k = 0; k < count; ++k, record += stride) {
     float square = 0;
     for (std::size_t c = KernelWork::kFixed; c < stride; ++c) square += record[c] * record[c];
-    for (int i = 2; i < 5; ++i) record[i] -= square;
+    record[2] -= square;
   }
   for (float& c : work.target_colours) c *= 2;
 }
@@ -245,6 +250,41 @@ std::uint32_t z_order(Index texel, Index width) {
   return spread_bits(texel % width) | spread_bits(texel / width) << 1;
 }
 
+/// A target before it is gathered.
+struct Place {
+  std::uint32_t order;  ///< z_order()
+  Index slot, face;     ///< as in KernelWork::Target
+  Index group;          ///< of FaceGroups
+};
+
+/// Put places in an order in which vectors of them need the same samples: those that fill small
+/// squares of texels first, square by square, then the rest. Within a few faces squares of the
+/// texture are squares of the surface; and groups keep faces together that are neighbours on the
+/// surface but not in the texture.
+void order_places(std::vector<Place>& places, Index groups) {
+  constexpr std::size_t kSquare = 16;  // texels, as many as the largest vectors have lanes
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return a.order != b.order ? a.order < b.order : a.slot < b.slot;
+  });
+  // Count per group, first of those in squares, then of the rest; then sort by that.
+  std::vector<Index> begin(2 * std::size_t(groups) + 1, 0);
+  std::vector<Index> rank(places.size());
+  for (std::size_t first = 0, last = 0; first < places.size(); first = last) {
+    while (last < places.size() && places[last].order / kSquare == places[first].order / kSquare) {
+      ++last;
+    }
+    const bool is_square = last - first == kSquare;
+    for (std::size_t k = first; k < last; ++k) {
+      rank[k] = is_square ? places[first].group : groups + places[k].group;
+      ++begin[rank[k] + 1];
+    }
+  }
+  for (std::size_t r = 1; r < begin.size(); ++r) begin[r] += begin[r - 1];
+  std::vector<Place> ordered(places.size());
+  for (std::size_t k = 0; k < places.size(); ++k) ordered[begin[rank[k]]++] = places[k];
+  places.swap(ordered);
+}
+
 void gather_targets(const KernelInput& input, double variance_scale, KernelWork& work,
                     std::vector<float>& out) {
   const Patch& patch = *input.patch;
@@ -259,59 +299,54 @@ void gather_targets(const KernelInput& input, double variance_scale, KernelWork&
   }
   work.kept = 0;
   out.resize(first_slot.back() * std::size_t(work.channels));
-  work.targets.clear();
-  work.target_colours.clear();
-  if (!input.only) {
-    work.targets.reserve(first_slot.back());
-    work.target_colours.reserve(out.size());
-  }
-
-  struct Place {
-    std::uint32_t order;
-    Index slot, face;
+  const auto sample_of = [&](Index face, Index slot) -> const Sample& {
+    return targets.samples[targets.face_offsets[patch.faces[face]] + slot - first_slot[face]];
   };
+  const auto colour_of = [&](const Sample& s) {
+    return colours.values + std::size_t(s.texel) * std::size_t(colours.stride);
+  };
+
   std::vector<Place> places;
-  const auto add = [&](const Place& place) {
-    const Index f = place.face;
-    const Sample& s =
-        targets.samples[targets.face_offsets[patch.faces[f]] + place.slot - first_slot[f]];
-    const float* colour = colours.values + std::size_t(s.texel) * std::size_t(colours.stride);
-    if (!is_usable(colour, work.channels, work.colour_scale)) {
-      std::copy_n(colour, work.channels, out.begin() + std::ptrdiff_t(place.slot) * work.channels);
-      ++work.kept;
-      return;
+  if (!input.only) places.reserve(first_slot.back());
+  FaceGroups groups(patch, targets);
+  const auto width = static_cast<Index>(colours.width);
+  Index group_count = 0;
+  for (const auto* group = &groups.next(); !group->empty(); group = &groups.next()) {
+    for (const Index f : *group) {
+      for (Index slot = first_slot[f]; slot < first_slot[f + 1]; ++slot) {
+        if (input.only && !(*input.only)[slot]) continue;
+        const Sample& s = sample_of(f, slot);
+        const float* colour = colour_of(s);
+        if (is_usable(colour, work.channels, work.usable_scale)) {
+          places.push_back({z_order(s.texel, width), slot, f, group_count});
+        } else {
+          std::copy_n(colour, work.channels, out.begin() + std::ptrdiff_t(slot) * work.channels);
+          ++work.kept;
+        }
+      }
     }
+    ++group_count;
+  }
+  order_places(places, group_count);
+
+  work.targets.clear();
+  work.targets.reserve(places.size());
+  work.target_colours.clear();
+  work.target_colours.reserve(places.size() * std::size_t(work.channels));
+  for (const Place& place : places) {
+    const Sample& s = sample_of(place.face, place.slot);
+    const float* colour = colour_of(s);
     const Vec3 a = barycentric(s);
     KernelWork::Target target;
-    target.corners = patch.corners[f];
+    target.corners = patch.corners[place.face];
     for (int i = 0; i < 3; ++i) target.barycentric[i] = static_cast<float>(a[i]);
     target.variance =
-        static_cast<float>(variance_scale * barycentric_variance(patch.lengths[f], a));
-    target.face = f;
+        static_cast<float>(variance_scale * barycentric_variance(patch.lengths[place.face], a));
+    target.face = place.face;
     target.slot = place.slot;
     target.texel = s.texel;
     work.targets.push_back(target);
     work.target_colours.insert(work.target_colours.end(), colour, colour + work.channels);
-  };
-
-  // Targets that share a vector should lie in a small square, so that they need the same samples.
-  // Squares of the texture are squares of the surface within a few faces.
-  FaceGroups groups(patch, targets);
-  const auto width = static_cast<Index>(colours.width);
-  for (const auto* group = &groups.next(); !group->empty(); group = &groups.next()) {
-    places.clear();
-    for (const Index f : *group) {
-      const Index begin = targets.face_offsets[patch.faces[f]];
-      for (Index slot = first_slot[f]; slot < first_slot[f + 1]; ++slot) {
-        if (input.only && !(*input.only)[slot]) continue;
-        places.push_back(
-            {z_order(targets.samples[begin + slot - first_slot[f]].texel, width), slot, f});
-      }
-    }
-    std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
-      return a.order != b.order ? a.order < b.order : a.slot < b.slot;
-    });
-    for (const Place& place : places) add(place);
   }
 
   // Colours are counted from the middle of theirs.
@@ -340,7 +375,7 @@ void gather(const KernelInput& input, const KernelOptions& options, KernelWork& 
 
   work.channels = input.colours.channels;
   const double half_log2e = 0.5 * std::numbers::log2e;
-  const double scale = half_log2e / (options.sigma_spatial * options.sigma_spatial);
+  const double scale = kExponentUnit * half_log2e / (options.sigma_spatial * options.sigma_spatial);
   work.distance_scale = static_cast<float>(-scale);
   // On regular grids many pairs tie at the radius; rounding must not decide about them.
   work.limit = static_cast<float>(-scale * options.radius * options.radius * (1 + 1e-5));
@@ -348,10 +383,12 @@ void gather(const KernelInput& input, const KernelOptions& options, KernelWork& 
       options.radius * std::sqrt(1 + 1e-5) + 2 * input.patch->longest_edge * (1 + 1e-6);
   work.reach_squared = static_cast<float>(reach * reach);
   work.range_channels = 0;
-  work.colour_scale = 1;
+  work.colour_scale = work.usable_scale = 1;
   if (options.sigma_range > 0) {
     work.range_channels = input.colours.range_channels;
-    work.colour_scale = static_cast<float>(std::sqrt(half_log2e) / options.sigma_range);
+    const double colour_scale = std::sqrt(half_log2e) / options.sigma_range;
+    work.usable_scale = static_cast<float>(colour_scale);
+    work.colour_scale = static_cast<float>(colour_scale * std::sqrt(kExponentUnit));
   }
   gather_targets(input, scale, work, out);
   const std::vector<unsigned char> is_near = find_faces_near(input, work);

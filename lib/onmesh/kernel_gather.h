@@ -17,9 +17,9 @@ enum class RangeTerm {
 };
 
 /// What the kernel reads. Squared distances are scaled by -log2(e) / (2 sigma_s^2) and called
-/// exponents (they are added up and raised to the power of two); colours are counted from
-/// `reference` and scaled by sqrt(log2(e) / 2) / sigma_r, so that their squared differences are
-/// exponents too.
+/// exponents (they are added up and raised to the power of two), in units of 1 / kExponentUnit;
+/// colours are counted from `reference` and scaled by sqrt(log2(e) / 2) / sigma_r and the root of
+/// that unit, so that their squared differences are exponents too.
 struct KernelWork {
   /// A local face that has samples.
   struct Face {
@@ -40,6 +40,7 @@ struct KernelWork {
   int channels = 0, range_channels = 0;
   float distance_scale = 0;  ///< from squared distance to exponent, negative
   float colour_scale = 1;    ///< 1 for the Gaussian filter
+  float usable_scale = 1;    ///< the same without the exponents' unit, for is_usable()
   RangeTerm range_term = RangeTerm::none;
   /// Per channel, in the colours' own unit: the middle of the targets', so that equal colours are
   /// 0.
@@ -49,9 +50,9 @@ struct KernelWork {
   float reach_squared = 0;
 
   std::vector<Face> faces;
-  /// Per sample kFixed values, then its scaled colour y: b1, b2, variance + a, a, limit + a, where
-  /// a is log2 of its area relative to the patch's largest, less y^2 if the range term is
-  /// `product`.
+  /// Per sample kFixed values, then its scaled colour y: b1, b2, variance + a, limit - variance,
+  /// the bits of the number of its face, where a is log2 of its area relative to the patch's
+  /// largest, less y^2 if the range term is `product`.
   static constexpr std::size_t kFixed = 5;
   std::vector<float> records;
   std::size_t stride() const { return kFixed + std::size_t(channels); }
