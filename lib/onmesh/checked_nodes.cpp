@@ -3,16 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+#include <utility>
 
 namespace onmesh {
 namespace {
 
 constexpr std::array kPalettes{16, 32, 64};
+/// Mean squared distance to the palette, in its units, beyond which it is not worth trying: few
+/// such patches are within the default tolerance.
+constexpr double kMostResidual = 0.16;
 constexpr int kPlaces = 2, kPerPlace = 32;
 constexpr std::size_t kLeastSupported = 64;
 /// Support below which targets are summed directly at first, and at most.
 constexpr float kLittleSupport = 8, kMostSupport = 200;
+/// Where more than one in so many targets has little support the nodes may be given up.
+constexpr std::size_t kMostUncertain = 16;
 /// An error of an uncertain target that asks for more direct sums, in tolerances.
 constexpr double kFarOff = 16;
 
@@ -42,22 +47,45 @@ CheckedNodes::CheckedNodes(const KernelOptions& options, double tolerance, bool 
       always_(always) {}
 
 void CheckedNodes::pick(const KernelInput& input) {
-  Index slots = 0;
-  for (Index f = 0; f < input.patch->core_faces; ++f) {
-    const Index face = input.patch->faces[f];
-    slots += input.targets->face_offsets[face + 1] - input.targets->face_offsets[face];
-  }
-  only_.assign(slots, 0);
+  const auto slots = Index(support_.size());
   picked_.clear();
   // Runs of targets lie close together on the surface, which makes their direct sums cheap.
   for (int place = 0; place < kPlaces && slots > 0; ++place) {
     const std::uint64_t at = hash(input.patch->faces[0] + std::uint64_t(place) * 0x100000000U);
     const Index first = Index(at % slots);
-    for (Index k = first; k < std::min<Index>(first + kPerPlace, slots); ++k) {
-      if (!only_[k]) picked_.push_back(k);
-      only_[k] = 1;
-    }
+    for (Index k = first; k < std::min<Index>(first + kPerPlace, slots); ++k) picked_.push_back(k);
   }
+  std::sort(picked_.begin(), picked_.end());
+  picked_.erase(std::unique(picked_.begin(), picked_.end()), picked_.end());
+}
+
+void CheckedNodes::find_doubtful(float little) {
+  doubtful_.clear();
+  for (Index k = 0; k < support_.size(); ++k)
+    if (support_[k] < kMostSupport) doubtful_.push_back(k);
+  const auto beyond = std::partition(doubtful_.begin(), doubtful_.end(),
+                                     [&](Index k) { return support_[k] < little; });
+  little_supported_ = std::size_t(beyond - doubtful_.begin());
+  if (std::size_t(doubtful_.end() - beyond) <= kLeastSupported) return;
+  std::nth_element(beyond, beyond + kLeastSupported, doubtful_.end(), [&](Index a, Index b) {
+    return std::pair(support_[a], a) < std::pair(support_[b], b);
+  });
+  doubtful_.resize(little_supported_ + kLeastSupported);
+}
+
+KernelCounts CheckedNodes::sum_directly(const KernelInput& input, Kernel& kernel,
+                                        const std::vector<Index>& targets) {
+  only_.assign(support_.size(), 0);
+  bool any = false;
+  for (const Index k : targets) {
+    if (is_summed_[k]) continue;
+    only_[k] = is_summed_[k] = 1;
+    any = true;
+  }
+  if (!any) return {};
+  KernelInput some = input;
+  some.only = &only_;
+  return kernel.run(some, sums_);
 }
 
 double CheckedNodes::measure(const KernelInput& input, NodeCheck& check) const {
@@ -78,70 +106,63 @@ double CheckedNodes::measure(const KernelInput& input, NodeCheck& check) const {
   return check.checked > 0 ? std::sqrt(check.squared_error / double(check.checked)) : 0;
 }
 
-void CheckedNodes::settle_uncertain(const KernelInput& input, Kernel& kernel,
-                                    std::vector<float>& out, KernelCounts& counts,
+void CheckedNodes::settle_uncertain(const KernelInput& input, Kernel& kernel, KernelCounts& counts,
                                     NodeCheck& check) {
   const auto channels = std::size_t(input.colours.channels);
-  std::vector<Index> order(support_.size());
-  std::iota(order.begin(), order.end(), Index(0));
-  float little = 0;
-  for (float next = kLittleSupport; next <= kMostSupport; next *= 4) {
-    // Targets of the next stretch of support, and the least supported beyond it.
-    std::erase_if(order, [&](Index k) { return support_[k] < little; });
-    const auto beyond =
-        std::partition(order.begin(), order.end(), [&](Index k) { return support_[k] < next; });
-    const auto doubtful =
-        std::partition(beyond, order.end(), [&](Index k) { return support_[k] < kMostSupport; });
-    const auto last = beyond + std::min<std::ptrdiff_t>(kLeastSupported, doubtful - beyond);
-    if (last == order.begin()) return;
-    std::partial_sort(beyond, last, doubtful, [&](Index a, Index b) {
-      return std::pair(support_[a], a) < std::pair(support_[b], b);
-    });
-    std::fill(only_.begin(), only_.end(), 0);
-    for (auto k = order.begin(); k != last; ++k) only_[*k] = 1;
-    KernelInput some = input;
-    some.only = &only_;
-    const KernelCounts more = kernel.run(some, sums_);
+  for (float little = kLittleSupport; little <= kMostSupport; little *= 4) {
+    find_doubtful(little);
+    const KernelCounts more = sum_directly(input, kernel, doubtful_);
     counts.pairs += more.pairs;
     counts.without_sample += more.without_sample;
-    check.direct += std::uint64_t(beyond - order.begin());
+    check.direct = little_supported_;
     double largest = 0;
-    for (auto k = order.begin(); k != last; ++k) {
-      for (std::size_t v = *k * channels; v < (*k + 1) * channels; ++v) {
-        if (k >= beyond) largest = std::max(largest, std::abs(double(sums_[v]) - out[v]));
-        out[v] = sums_[v];
-      }
+    for (std::size_t i = little_supported_; i < doubtful_.size(); ++i) {
+      const std::size_t first = doubtful_[i] * channels;
+      for (std::size_t v = first; v < first + channels; ++v)
+        largest = std::max(largest, std::abs(double(sums_[v]) - values_[v]));
     }
     check.largest_error = std::max(check.largest_error, largest);
-    if (largest <= kFarOff * tolerance_) return;
-    little = next;
+    if (largest <= kFarOff * tolerance_) break;
+  }
+  for (Index k = 0; k < is_summed_.size(); ++k) {
+    if (!is_summed_[k]) continue;
+    for (std::size_t v = k * channels; v < (k + 1) * channels; ++v) values_[v] = sums_[v];
   }
 }
 
 bool CheckedNodes::run(const KernelInput& input, Kernel& kernel, std::vector<float>& out,
                        KernelCounts& counts, NodeCheck& check) {
   if (!nodes_.load(input)) return false;
-  pick(input);
-  KernelInput some = input;
-  some.only = &only_;
-  KernelCounts sums = kernel.run(some, sums_);
-  sums.without_sample = 0;  // counted when all is settled
-
   check = {};
-  for (const int colours : kPalettes) {
-    check.colours = nodes_.evaluate(colours, values_, support_);
-    const double error = measure(input, check);
-    if (error <= tolerance_) break;
-    if (check.colours < colours || colours == kPalettes.back()) {
+  std::size_t palette = 0;
+  while (nodes_.choose_palette(kPalettes[palette]) > kMostResidual &&
+         palette + 1 < kPalettes.size()) {
+    ++palette;
+  }
+  check.colours = nodes_.evaluate(values_, support_);
+  check.targets = support_.size();
+  is_summed_.assign(support_.size(), 0);
+  pick(input);
+  std::vector<Index> first = picked_;
+  // One pass over the samples serves both checks, unless so much is uncertain that the nodes may
+  // well be given up.
+  find_doubtful(kLittleSupport);
+  if (little_supported_ <= support_.size() / kMostUncertain)
+    first.insert(first.end(), doubtful_.begin(), doubtful_.end());
+  counts = sum_directly(input, kernel, first);
+  const auto summed =
+      double(std::max<std::ptrdiff_t>(std::count(is_summed_.begin(), is_summed_.end(), 1), 1));
+  check.pairs = double(counts.pairs) / summed * double(support_.size());
+
+  while (measure(input, check) > tolerance_) {
+    if (palette + 1 == kPalettes.size() || check.colours < kPalettes[palette]) {
       if (!always_) return false;
       break;
     }
+    nodes_.choose_palette(kPalettes[++palette]);
+    check.colours = nodes_.evaluate(values_, support_);
   }
-  check.targets = support_.size();
-  check.pairs = double(sums.pairs) / double(std::max<std::size_t>(picked_.size(), 1)) *
-                double(support_.size());
-  counts.pairs += sums.pairs;
-  settle_uncertain(input, kernel, values_, counts, check);
+  settle_uncertain(input, kernel, counts, check);
   out.swap(values_);
   return true;
 }

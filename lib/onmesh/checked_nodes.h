@@ -15,7 +15,7 @@ struct NodeCheck {
   double squared_error = 0;   ///< their sum
   double largest_error = 0;   ///< of all values compared, also of the most uncertain targets
   int colours = 0;            ///< the largest palette
-  /// Pairs within the radius of all targets, estimated from those of the targets picked at random.
+  /// Pairs within the radius of all targets, estimated from those of the targets summed first.
   double pairs = 0;
 
   void add(const NodeCheck& other);
@@ -49,17 +49,24 @@ class CheckedNodes {
 
  private:
   void pick(const KernelInput& input);
+  /// All targets with less support than `little`, then the least supported of the others.
+  void find_doubtful(float little);
+  KernelCounts sum_directly(const KernelInput& input, Kernel& kernel,
+                            const std::vector<Index>& targets);
   double measure(const KernelInput& input, NodeCheck& check) const;
-  void settle_uncertain(const KernelInput& input, Kernel& kernel, std::vector<float>& out,
-                        KernelCounts& counts, NodeCheck& check);
+  void settle_uncertain(const KernelInput& input, Kernel& kernel, KernelCounts& counts,
+                        NodeCheck& check);
 
   NodeKernel nodes_;
   const bool is_gaussian_;
   const double tolerance_;
   const bool always_;
-  std::vector<unsigned char> only_;
-  std::vector<Index> picked_;
-  std::vector<float> values_, sums_, support_;
+  std::vector<float> values_, support_;  ///< of the nodes
+  std::vector<float> sums_;              ///< of the direct sum, where it was asked for
+  std::vector<unsigned char> is_summed_, only_;
+  std::vector<Index> picked_;    ///< at random
+  std::vector<Index> doubtful_;  ///< the first little_supported_ are to be summed directly
+  std::size_t little_supported_ = 0;
 };
 
 }  // namespace onmesh

@@ -9,8 +9,8 @@
 namespace onmesh {
 namespace {
 
-/// Samples looked at: twice as many as the largest palette is made of.
-constexpr std::size_t kSurveyed = 4096;
+/// Samples looked at: as many as the largest palette is made of.
+constexpr std::size_t kSurveyed = 2048;
 
 /// Which subnodes the blur reads, directly or through the ends of an edge too short to split.
 void find_used(const Subnodes& subnodes, const BlurWeights& blur,

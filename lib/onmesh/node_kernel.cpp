@@ -1,6 +1,7 @@
 #include "onmesh/node_kernel.h"
 
 #include <hwy/aligned_allocator.h>
+#include <hwy/cache_control.h>
 
 #include <algorithm>
 #include <array>
@@ -82,6 +83,10 @@ void for_chunks(const NodeKernelState& s, const Samples& samples, Index local_fa
   }
   if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) return;
   const Sample* const first = samples.samples.data() + begin;
+  // Colours are all over the texture; none should be waited for by itself.
+  const Colours& texels = s.input.colours;
+  for (const Sample* sample = first; sample != first + (end - begin); ++sample)
+    hwy::Prefetch(texels.values + std::size_t(sample->texel) * std::size_t(texels.stride));
   scratch.quarters.sort(first, end - begin, is_split);
   for (int q = 0; q < parts; ++q) {
     if (!wanted[q]) continue;
@@ -435,22 +440,26 @@ bool NodeKernel::load(const KernelInput& input) {
   s.blur.exponents.resize((entries + Palette::kLanes - 1) / Palette::kLanes * Palette::kLanes);
   HWY_DYNAMIC_DISPATCH(raise)(s.blur.exponents);
   survey(input, s.subnodes, s.blur, options_, s.work);
+  s.palette = {};
   s.input = input;
   return true;
 }
 
-int NodeKernel::evaluate(int colours, std::vector<float>& out, std::vector<float>& support) {
+double NodeKernel::choose_palette(int colours) {
   NodeKernelState& s = *state_;
-  s.palette = {};
-  s.row = (s.work.planes() + Palette::kLanes - 1) / Palette::kLanes * Palette::kLanes;
-  if (s.work.range_channels > 0) {
-    const auto channels = std::size_t(s.work.range_channels);
-    if (!s.work.colours.empty()) {
-      s.palette = make_palette(s.work.colours.data(), s.work.colours.size() / channels, channels,
-                               channels, std::size_t(colours));
-    }
-    s.row = s.work.planes() * s.palette.padded;
-  }
+  if (s.work.colours.empty()) return 0;
+  const auto channels = std::size_t(s.work.range_channels);
+  s.palette = make_palette(s.work.colours.data(), s.work.colours.size() / channels, channels,
+                           channels, std::size_t(colours));
+  return s.palette.residual;
+}
+
+int NodeKernel::evaluate(std::vector<float>& out, std::vector<float>& support) {
+  NodeKernelState& s = *state_;
+  const std::size_t planes = s.work.planes();
+  s.row = s.work.range_channels > 0
+              ? planes * s.palette.padded
+              : (planes + Palette::kLanes - 1) / Palette::kLanes * Palette::kLanes;
   const Index targets = count_targets(s.input);
   support.resize(targets);
   out.resize(targets * std::size_t(s.work.channels));
