@@ -12,7 +12,7 @@ constexpr std::array kPalettes{16, 32, 64};
 /// Mean squared distance to the palette, in its units, beyond which it is not worth trying: few
 /// such patches are within the default tolerance.
 constexpr double kMostResidual = 0.16;
-constexpr int kPlaces = 2, kPerPlace = 32;
+constexpr Index kPicked = 64;
 constexpr std::size_t kLeastSupported = 64;
 /// Support below which targets are summed directly at first, and at most.
 constexpr float kLittleSupport = 8, kMostSupport = 200;
@@ -47,16 +47,22 @@ CheckedNodes::CheckedNodes(const KernelOptions& options, double tolerance, bool 
       always_(always) {}
 
 void CheckedNodes::pick(const KernelInput& input) {
-  const auto slots = Index(support_.size());
   picked_.clear();
-  // Runs of targets lie close together on the surface, which makes their direct sums cheap.
-  for (int place = 0; place < kPlaces && slots > 0; ++place) {
-    const std::uint64_t at = hash(input.patch->faces[0] + std::uint64_t(place) * 0x100000000U);
-    const Index first = Index(at % slots);
-    for (Index k = first; k < std::min<Index>(first + kPerPlace, slots); ++k) picked_.push_back(k);
+  if (support_.empty()) return;
+  const auto slots = Index(support_.size());
+  const std::uint64_t random = hash(input.patch->faces[0]);
+  const auto at = Index(random % slots);
+  Index first = 0, count = 0;
+  for (Index f = 0; first + count <= at; ++f) {
+    const Index face = input.patch->faces[f];
+    first += count;
+    count = input.targets->face_offsets[face + 1] - input.targets->face_offsets[face];
   }
-  std::sort(picked_.begin(), picked_.end());
-  picked_.erase(std::unique(picked_.begin(), picked_.end()), picked_.end());
+  // Targets of one face lie close together on the surface, which makes their direct sums cheap.
+  // Small faces have too few; there the next ones are as good.
+  const Index step = std::max<Index>(1, count / kPicked);
+  first += Index((random >> 32) % step);
+  for (Index k = first; k < slots && picked_.size() < kPicked; k += step) picked_.push_back(k);
 }
 
 void CheckedNodes::find_doubtful(float little) {

@@ -29,12 +29,13 @@ class CheckedNodes {
 
   /// Filter all targets in the patch's core faces.
   ///
-  /// The RMS error is measured on up to 64 targets of two places, picked by a hash of the patch;
-  /// the palette grows from 16 colours until it is within the tolerance, up to 64. Targets with
-  /// little support (the weights of less than a few texels) are summed directly; of the others, the
-  /// 64 with the least (if it is little at all) are checked too, and if one is far off, more are
-  /// summed directly. \param kernel does the direct sums \return false if the patch is to be summed
-  /// directly instead: its nodes are too coarse, or the
+  /// The RMS error is measured on up to 64 targets, spread over a face that is picked by a hash of
+  /// the patch; the palette grows from 16 colours (more where those are far from the patch's) until
+  /// it is within the tolerance, up to 64. Targets with little support (the weights of less than a
+  /// few texels) are summed directly; of the others, the 64 with the least (if it is little at all)
+  /// are checked too, and if one is far off, more are summed directly.
+  /// \param kernel does the direct sums
+  /// \return false if the patch is to be summed directly instead: its nodes are too coarse, or the
   ///   tolerance is not met
   bool run(const KernelInput& input, Kernel& kernel, std::vector<float>& out, KernelCounts& counts,
            NodeCheck& check);
