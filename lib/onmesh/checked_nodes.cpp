@@ -28,6 +28,48 @@ std::uint64_t hash(std::uint64_t x) {  // splitmix64 (Steele, Lea & Flood 2014)
   return x ^ (x >> 31);
 }
 
+/// The part of a patch that some of its core faces need: they become its core, and its halo all
+/// other faces with a point that may be within the radius of one of theirs. Nodes stay the same.
+Patch narrow(const KernelInput& input, const std::vector<Index>& core, double radius) {
+  const Patch& whole = *input.patch;
+  const DistanceTable& table = *input.table;
+  Patch part;
+  part.nodes = whole.nodes;
+  part.core_nodes = whole.core_nodes;
+  part.core_faces = Index(core.size());
+  const auto add = [&](Index f) {
+    part.faces.push_back(whole.faces[f]);
+    part.corners.push_back(whole.corners[f]);
+    part.lengths.push_back(whole.lengths[f]);
+    for (const double length : whole.lengths[f])
+      part.longest_edge = std::max(part.longest_edge, length);
+  };
+  std::vector<unsigned char> is_core(whole.faces.size(), 0), is_corner(whole.core_nodes, 0);
+  for (const Index f : core) {
+    add(f);
+    is_core[f] = 1;
+    for (const Index n : whole.corners[f]) is_corner[n] = 1;
+  }
+  std::vector<float> nearest(table.columns, kUnreachable);
+  for (Index corner = 0; corner < whole.core_nodes; ++corner) {
+    if (!is_corner[corner]) continue;
+    const float* const row = table.row(corner);
+    for (Index n = 0; n < table.columns; ++n) nearest[n] = std::min(nearest[n], row[n]);
+  }
+  // d^2 = sum_ij a_i b_j D_ij - V(x) - V(y) is at least the smallest entry less both variances,
+  // which are at most a third of the longest edge's square.
+  const double core_variance = part.longest_edge * part.longest_edge / 3;
+  for (Index f = 0; f < whole.faces.size(); ++f) {
+    if (is_core[f]) continue;
+    const auto& n = whole.corners[f];
+    const auto& l = whole.lengths[f];
+    const double longest = std::max({l[0], l[1], l[2]});
+    const double reach = radius * radius * (1 + 1e-4) + core_variance + longest * longest / 3;
+    if (std::min({nearest[n[0]], nearest[n[1]], nearest[n[2]]}) <= reach) add(f);
+  }
+  return part;
+}
+
 }  // namespace
 
 void NodeCheck::add(const NodeCheck& other) {
@@ -41,10 +83,7 @@ void NodeCheck::add(const NodeCheck& other) {
 }
 
 CheckedNodes::CheckedNodes(const KernelOptions& options, double tolerance, bool always)
-    : nodes_(options),
-      is_gaussian_(!(options.sigma_range > 0)),
-      tolerance_(tolerance),
-      always_(always) {}
+    : nodes_(options), radius_(options.radius), tolerance_(tolerance), always_(always) {}
 
 void CheckedNodes::pick(const KernelInput& input) {
   picked_.clear();
@@ -81,17 +120,38 @@ void CheckedNodes::find_doubtful(float little) {
 
 KernelCounts CheckedNodes::sum_directly(const KernelInput& input, Kernel& kernel,
                                         const std::vector<Index>& targets) {
-  only_.assign(support_.size(), 0);
-  bool any = false;
+  std::vector<unsigned char> is_new(support_.size(), 0);
   for (const Index k : targets) {
-    if (is_summed_[k]) continue;
-    only_[k] = is_summed_[k] = 1;
-    any = true;
+    if (!is_summed_[k]) is_new[k] = is_summed_[k] = 1;
   }
-  if (!any) return {};
+  // The core faces that hold them, and the number of each one's target there and here.
+  std::vector<Index> core, slots;
+  only_.clear();
+  Index first = 0;
+  for (Index f = 0; f < input.patch->core_faces; ++f) {
+    const Index face = input.patch->faces[f];
+    const Index end =
+        first + input.targets->face_offsets[face + 1] - input.targets->face_offsets[face];
+    const auto begin = is_new.begin();
+    if (std::find(begin + first, begin + end, 1) != begin + end) {
+      core.push_back(f);
+      only_.insert(only_.end(), begin + first, begin + end);
+      for (Index k = first; k < end; ++k) slots.push_back(k);
+    }
+    first = end;
+  }
+  if (core.empty()) return {};
+  const Patch patch = narrow(input, core, radius_);
   KernelInput some = input;
+  some.patch = &patch;
   some.only = &only_;
-  return kernel.run(some, sums_);
+  const KernelCounts counts = kernel.run(some, some_sums_);
+  const auto channels = std::size_t(input.colours.channels);
+  sums_.resize(support_.size() * channels);
+  for (std::size_t k = 0; k < slots.size(); ++k) {
+    if (only_[k]) std::copy_n(&some_sums_[k * channels], channels, &sums_[slots[k] * channels]);
+  }
+  return counts;
 }
 
 double CheckedNodes::measure(const KernelInput& input, NodeCheck& check) const {

@@ -52,6 +52,7 @@ class CheckedNodes {
   void pick(const KernelInput& input);
   /// All targets with less support than `little`, then the least supported of the others.
   void find_doubtful(float little);
+  /// Fill sums_ for those of the targets where they are not known yet.
   KernelCounts sum_directly(const KernelInput& input, Kernel& kernel,
                             const std::vector<Index>& targets);
   double measure(const KernelInput& input, NodeCheck& check) const;
@@ -59,14 +60,15 @@ class CheckedNodes {
                         NodeCheck& check);
 
   NodeKernel nodes_;
-  const bool is_gaussian_;
+  const double radius_;
   const double tolerance_;
   const bool always_;
   std::vector<float> values_, support_;  ///< of the nodes
   std::vector<float> sums_;              ///< of the direct sum, where it was asked for
   std::vector<unsigned char> is_summed_, only_;
-  std::vector<Index> picked_;    ///< at random
-  std::vector<Index> doubtful_;  ///< the first little_supported_ are to be summed directly
+  std::vector<float> some_sums_;  ///< of the targets of one call
+  std::vector<Index> picked_;     ///< at random
+  std::vector<Index> doubtful_;   ///< the first little_supported_ are to be summed directly
   std::size_t little_supported_ = 0;
 };
 
