@@ -196,6 +196,23 @@ void CheckedNodes::settle_uncertain(const KernelInput& input, Kernel& kernel, Ke
   }
 }
 
+KernelCounts CheckedNodes::sum_first(const KernelInput& input, Kernel& kernel, NodeCheck& check) {
+  pick(input);
+  is_summed_.assign(support_.size(), 0);
+  std::vector<Index> first = picked_;
+  // One pass over the samples serves both checks, unless so much is uncertain that the nodes may
+  // well be given up.
+  find_doubtful(kLittleSupport);
+  if (little_supported_ <= support_.size() / kMostUncertain)
+    first.insert(first.end(), doubtful_.begin(), doubtful_.end());
+  const KernelCounts counts = sum_directly(input, kernel, first);
+  const auto summed = std::count(is_summed_.begin(), is_summed_.end(), 1);
+  check.targets = support_.size();
+  check.pairs =
+      double(counts.pairs) / double(std::max<std::ptrdiff_t>(summed, 1)) * double(support_.size());
+  return counts;
+}
+
 bool CheckedNodes::run(const KernelInput& input, Kernel& kernel, std::vector<float>& out,
                        KernelCounts& counts, NodeCheck& check) {
   if (!nodes_.load(input)) return false;
@@ -206,20 +223,7 @@ bool CheckedNodes::run(const KernelInput& input, Kernel& kernel, std::vector<flo
     ++palette;
   }
   check.colours = nodes_.evaluate(values_, support_);
-  check.targets = support_.size();
-  is_summed_.assign(support_.size(), 0);
-  pick(input);
-  std::vector<Index> first = picked_;
-  // One pass over the samples serves both checks, unless so much is uncertain that the nodes may
-  // well be given up.
-  find_doubtful(kLittleSupport);
-  if (little_supported_ <= support_.size() / kMostUncertain)
-    first.insert(first.end(), doubtful_.begin(), doubtful_.end());
-  counts = sum_directly(input, kernel, first);
-  const auto summed =
-      double(std::max<std::ptrdiff_t>(std::count(is_summed_.begin(), is_summed_.end(), 1), 1));
-  check.pairs = double(counts.pairs) / summed * double(support_.size());
-
+  counts = sum_first(input, kernel, check);
   while (measure(input, check) > tolerance_) {
     if (palette + 1 == kPalettes.size() || check.colours < kPalettes[palette]) {
       if (!always_) return false;

@@ -55,6 +55,8 @@ class CheckedNodes {
   /// Fill sums_ for those of the targets where they are not known yet.
   KernelCounts sum_directly(const KernelInput& input, Kernel& kernel,
                             const std::vector<Index>& targets);
+  /// The direct sums of targets picked at random and, if they are few, of doubtful ones.
+  KernelCounts sum_first(const KernelInput& input, Kernel& kernel, NodeCheck& check);
   double measure(const KernelInput& input, NodeCheck& check) const;
   void settle_uncertain(const KernelInput& input, Kernel& kernel, KernelCounts& counts,
                         NodeCheck& check);
