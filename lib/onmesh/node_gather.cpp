@@ -1,8 +1,11 @@
 #include "onmesh/node_gather.h"
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "onmesh/kernel_gather.h"
 
@@ -29,26 +32,29 @@ bool is_used(const Patch& patch, const NodeWork& work, Index f) {
   return (work.used[n[0]] | work.used[n[1]] | work.used[n[2]]) != 0;
 }
 
-/// Call visit(sample) with about kSurveyed samples, spread evenly over the faces that are used.
-template <typename Visit>
-void visit_some(const KernelInput& input, const NodeWork& work, const Visit& visit) {
+/// About kSurveyed samples, spread evenly over the faces that are used.
+std::vector<const Sample*> choose_some(const KernelInput& input, const NodeWork& work) {
   const Patch& patch = *input.patch;
   const Samples& sources = *input.sources;
-  const auto count = [&](Index f) -> std::size_t {
-    const Index face = patch.faces[f];
-    if (!is_used(patch, work, f)) return 0;
-    return sources.face_offsets[face + 1] - sources.face_offsets[face];
-  };
+  std::vector<std::pair<const Sample*, std::size_t>> faces;  // first sample and number
+  faces.reserve(patch.faces.size());
   std::size_t total = 0;
-  for (Index f = 0; f < patch.faces.size(); ++f) total += count(f);
-  const std::size_t step = std::max<std::size_t>(1, total / kSurveyed);
-  std::size_t next = step / 2;  // from the face's first sample
   for (Index f = 0; f < patch.faces.size(); ++f) {
-    const std::size_t end = count(f);
-    for (; next < end; next += step)
-      visit(sources.samples[sources.face_offsets[patch.faces[f]] + next]);
-    next -= end;
+    if (!is_used(patch, work, f)) continue;
+    const Index begin = sources.face_offsets[patch.faces[f]];
+    const std::size_t count = sources.face_offsets[patch.faces[f] + 1] - begin;
+    faces.emplace_back(sources.samples.data() + begin, count);
+    total += count;
   }
+  const std::size_t step = std::max<std::size_t>(1, total / kSurveyed);
+  std::vector<const Sample*> some;
+  some.reserve(total / step + 1);
+  std::size_t next = step / 2;  // from the face's first sample
+  for (const auto& [first, count] : faces) {
+    for (; next < count; next += step) some.push_back(first + next);
+    next -= count;
+  }
+  return some;
 }
 
 }  // namespace
@@ -85,14 +91,21 @@ void survey(const KernelInput& input, const Subnodes& subnodes, const BlurWeight
   double count = 0;
   std::vector<double> sum(std::size_t(work.channels), 0);
   work.colours.clear();
-  visit_some(input, work, [&](const Sample& s) {
-    largest = std::max(largest, s.area);
-    const float* const colour = colours.values + std::size_t(s.texel) * std::size_t(colours.stride);
-    if (!is_usable(colour, work.channels, work.colour_scale)) return;
+  const auto colour_of = [&](const Sample& s) {
+    return colours.values + std::size_t(s.texel) * std::size_t(colours.stride);
+  };
+  const std::vector<const Sample*> some = choose_some(input, work);
+  // They are all over memory; none should be waited for by itself.
+  for (const Sample* s : some) hwy::Prefetch(s);
+  for (const Sample* s : some) hwy::Prefetch(colour_of(*s));
+  for (const Sample* s : some) {
+    largest = std::max(largest, s->area);
+    const float* const colour = colour_of(*s);
+    if (!is_usable(colour, work.channels, work.colour_scale)) continue;
     for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += colour[c];
     ++count;
     work.colours.insert(work.colours.end(), colour, colour + work.range_channels);
-  });
+  }
   work.inverse_area = largest > 0 ? 1 / largest : 0;
   work.reference.resize(sum.size());
   for (std::size_t c = 0; c < sum.size(); ++c)
