@@ -3,16 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+#include <utility>
 
 namespace onmesh {
 namespace {
 
 constexpr std::array kPalettes{16, 32, 64};
-constexpr int kPlaces = 2, kPerPlace = 32;
+/// Mean squared distance to the palette, in its units, beyond which it is not worth trying: few
+/// such patches are within the default tolerance.
+constexpr double kMostResidual = 0.16;
+constexpr Index kPicked = 64;
 constexpr std::size_t kLeastSupported = 64;
 /// Support below which targets are summed directly at first, and at most.
 constexpr float kLittleSupport = 8, kMostSupport = 200;
+/// Where more than one in so many targets has little support the nodes may be given up.
+constexpr std::size_t kMostUncertain = 16;
 /// An error of an uncertain target that asks for more direct sums, in tolerances.
 constexpr double kFarOff = 16;
 
@@ -21,6 +26,48 @@ std::uint64_t hash(std::uint64_t x) {  // splitmix64 (Steele, Lea & Flood 2014)
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
   return x ^ (x >> 31);
+}
+
+/// The part of a patch that some of its core faces need: they become its core, and its halo all
+/// other faces with a point that may be within the radius of one of theirs. Nodes stay the same.
+Patch narrow(const KernelInput& input, const std::vector<Index>& core, double radius) {
+  const Patch& whole = *input.patch;
+  const DistanceTable& table = *input.table;
+  Patch part;
+  part.nodes = whole.nodes;
+  part.core_nodes = whole.core_nodes;
+  part.core_faces = Index(core.size());
+  const auto add = [&](Index f) {
+    part.faces.push_back(whole.faces[f]);
+    part.corners.push_back(whole.corners[f]);
+    part.lengths.push_back(whole.lengths[f]);
+    for (const double length : whole.lengths[f])
+      part.longest_edge = std::max(part.longest_edge, length);
+  };
+  std::vector<unsigned char> is_core(whole.faces.size(), 0), is_corner(whole.core_nodes, 0);
+  for (const Index f : core) {
+    add(f);
+    is_core[f] = 1;
+    for (const Index n : whole.corners[f]) is_corner[n] = 1;
+  }
+  std::vector<float> nearest(table.columns, kUnreachable);
+  for (Index corner = 0; corner < whole.core_nodes; ++corner) {
+    if (!is_corner[corner]) continue;
+    const float* const row = table.row(corner);
+    for (Index n = 0; n < table.columns; ++n) nearest[n] = std::min(nearest[n], row[n]);
+  }
+  // d^2 = sum_ij a_i b_j D_ij - V(x) - V(y) is at least the smallest entry less both variances,
+  // which are at most a third of the longest edge's square.
+  const double core_variance = part.longest_edge * part.longest_edge / 3;
+  for (Index f = 0; f < whole.faces.size(); ++f) {
+    if (is_core[f]) continue;
+    const auto& n = whole.corners[f];
+    const auto& l = whole.lengths[f];
+    const double longest = std::max({l[0], l[1], l[2]});
+    const double reach = radius * radius * (1 + 1e-4) + core_variance + longest * longest / 3;
+    if (std::min({nearest[n[0]], nearest[n[1]], nearest[n[2]]}) <= reach) add(f);
+  }
+  return part;
 }
 
 }  // namespace
@@ -36,28 +83,75 @@ void NodeCheck::add(const NodeCheck& other) {
 }
 
 CheckedNodes::CheckedNodes(const KernelOptions& options, double tolerance, bool always)
-    : nodes_(options),
-      is_gaussian_(!(options.sigma_range > 0)),
-      tolerance_(tolerance),
-      always_(always) {}
+    : nodes_(options), radius_(options.radius), tolerance_(tolerance), always_(always) {}
 
 void CheckedNodes::pick(const KernelInput& input) {
-  Index slots = 0;
+  picked_.clear();
+  if (support_.empty()) return;
+  const auto slots = Index(support_.size());
+  const std::uint64_t random = hash(input.patch->faces[0]);
+  const auto at = Index(random % slots);
+  Index first = 0, count = 0;
+  for (Index f = 0; first + count <= at; ++f) {
+    const Index face = input.patch->faces[f];
+    first += count;
+    count = input.targets->face_offsets[face + 1] - input.targets->face_offsets[face];
+  }
+  // Targets of one face lie close together on the surface, which makes their direct sums cheap.
+  // Small faces have too few; there the next ones are as good.
+  const Index step = std::max<Index>(1, count / kPicked);
+  first += Index((random >> 32) % step);
+  for (Index k = first; k < slots && picked_.size() < kPicked; k += step) picked_.push_back(k);
+}
+
+void CheckedNodes::find_doubtful(float little) {
+  doubtful_.clear();
+  for (Index k = 0; k < support_.size(); ++k)
+    if (support_[k] < kMostSupport) doubtful_.push_back(k);
+  const auto beyond = std::partition(doubtful_.begin(), doubtful_.end(),
+                                     [&](Index k) { return support_[k] < little; });
+  little_supported_ = std::size_t(beyond - doubtful_.begin());
+  if (std::size_t(doubtful_.end() - beyond) <= kLeastSupported) return;
+  std::nth_element(beyond, beyond + kLeastSupported, doubtful_.end(), [&](Index a, Index b) {
+    return std::pair(support_[a], a) < std::pair(support_[b], b);
+  });
+  doubtful_.resize(little_supported_ + kLeastSupported);
+}
+
+KernelCounts CheckedNodes::sum_directly(const KernelInput& input, Kernel& kernel,
+                                        const std::vector<Index>& targets) {
+  std::vector<unsigned char> is_new(support_.size(), 0);
+  for (const Index k : targets) {
+    if (!is_summed_[k]) is_new[k] = is_summed_[k] = 1;
+  }
+  // The core faces that hold them, and the number of each one's target there and here.
+  std::vector<Index> core, slots;
+  only_.clear();
+  Index first = 0;
   for (Index f = 0; f < input.patch->core_faces; ++f) {
     const Index face = input.patch->faces[f];
-    slots += input.targets->face_offsets[face + 1] - input.targets->face_offsets[face];
-  }
-  only_.assign(slots, 0);
-  picked_.clear();
-  // Runs of targets lie close together on the surface, which makes their direct sums cheap.
-  for (int place = 0; place < kPlaces && slots > 0; ++place) {
-    const std::uint64_t at = hash(input.patch->faces[0] + std::uint64_t(place) * 0x100000000U);
-    const Index first = Index(at % slots);
-    for (Index k = first; k < std::min<Index>(first + kPerPlace, slots); ++k) {
-      if (!only_[k]) picked_.push_back(k);
-      only_[k] = 1;
+    const Index end =
+        first + input.targets->face_offsets[face + 1] - input.targets->face_offsets[face];
+    const auto begin = is_new.begin();
+    if (std::find(begin + first, begin + end, 1) != begin + end) {
+      core.push_back(f);
+      only_.insert(only_.end(), begin + first, begin + end);
+      for (Index k = first; k < end; ++k) slots.push_back(k);
     }
+    first = end;
   }
+  if (core.empty()) return {};
+  const Patch patch = narrow(input, core, radius_);
+  KernelInput some = input;
+  some.patch = &patch;
+  some.only = &only_;
+  const KernelCounts counts = kernel.run(some, some_sums_);
+  const auto channels = std::size_t(input.colours.channels);
+  sums_.resize(support_.size() * channels);
+  for (std::size_t k = 0; k < slots.size(); ++k) {
+    if (only_[k]) std::copy_n(&some_sums_[k * channels], channels, &sums_[slots[k] * channels]);
+  }
+  return counts;
 }
 
 double CheckedNodes::measure(const KernelInput& input, NodeCheck& check) const {
@@ -78,70 +172,67 @@ double CheckedNodes::measure(const KernelInput& input, NodeCheck& check) const {
   return check.checked > 0 ? std::sqrt(check.squared_error / double(check.checked)) : 0;
 }
 
-void CheckedNodes::settle_uncertain(const KernelInput& input, Kernel& kernel,
-                                    std::vector<float>& out, KernelCounts& counts,
+void CheckedNodes::settle_uncertain(const KernelInput& input, Kernel& kernel, KernelCounts& counts,
                                     NodeCheck& check) {
   const auto channels = std::size_t(input.colours.channels);
-  std::vector<Index> order(support_.size());
-  std::iota(order.begin(), order.end(), Index(0));
-  float little = 0;
-  for (float next = kLittleSupport; next <= kMostSupport; next *= 4) {
-    // Targets of the next stretch of support, and the least supported beyond it.
-    std::erase_if(order, [&](Index k) { return support_[k] < little; });
-    const auto beyond =
-        std::partition(order.begin(), order.end(), [&](Index k) { return support_[k] < next; });
-    const auto doubtful =
-        std::partition(beyond, order.end(), [&](Index k) { return support_[k] < kMostSupport; });
-    const auto last = beyond + std::min<std::ptrdiff_t>(kLeastSupported, doubtful - beyond);
-    if (last == order.begin()) return;
-    std::partial_sort(beyond, last, doubtful, [&](Index a, Index b) {
-      return std::pair(support_[a], a) < std::pair(support_[b], b);
-    });
-    std::fill(only_.begin(), only_.end(), 0);
-    for (auto k = order.begin(); k != last; ++k) only_[*k] = 1;
-    KernelInput some = input;
-    some.only = &only_;
-    const KernelCounts more = kernel.run(some, sums_);
+  for (float little = kLittleSupport; little <= kMostSupport; little *= 4) {
+    find_doubtful(little);
+    const KernelCounts more = sum_directly(input, kernel, doubtful_);
     counts.pairs += more.pairs;
     counts.without_sample += more.without_sample;
-    check.direct += std::uint64_t(beyond - order.begin());
+    check.direct = little_supported_;
     double largest = 0;
-    for (auto k = order.begin(); k != last; ++k) {
-      for (std::size_t v = *k * channels; v < (*k + 1) * channels; ++v) {
-        if (k >= beyond) largest = std::max(largest, std::abs(double(sums_[v]) - out[v]));
-        out[v] = sums_[v];
-      }
+    for (std::size_t i = little_supported_; i < doubtful_.size(); ++i) {
+      const std::size_t first = doubtful_[i] * channels;
+      for (std::size_t v = first; v < first + channels; ++v)
+        largest = std::max(largest, std::abs(double(sums_[v]) - values_[v]));
     }
     check.largest_error = std::max(check.largest_error, largest);
-    if (largest <= kFarOff * tolerance_) return;
-    little = next;
+    if (largest <= kFarOff * tolerance_) break;
   }
+  for (Index k = 0; k < is_summed_.size(); ++k) {
+    if (!is_summed_[k]) continue;
+    for (std::size_t v = k * channels; v < (k + 1) * channels; ++v) values_[v] = sums_[v];
+  }
+}
+
+KernelCounts CheckedNodes::sum_first(const KernelInput& input, Kernel& kernel, NodeCheck& check) {
+  pick(input);
+  is_summed_.assign(support_.size(), 0);
+  std::vector<Index> first = picked_;
+  // One pass over the samples serves both checks, unless so much is uncertain that the nodes may
+  // well be given up.
+  find_doubtful(kLittleSupport);
+  if (little_supported_ <= support_.size() / kMostUncertain)
+    first.insert(first.end(), doubtful_.begin(), doubtful_.end());
+  const KernelCounts counts = sum_directly(input, kernel, first);
+  const auto summed = std::count(is_summed_.begin(), is_summed_.end(), 1);
+  check.targets = support_.size();
+  check.pairs =
+      double(counts.pairs) / double(std::max<std::ptrdiff_t>(summed, 1)) * double(support_.size());
+  return counts;
 }
 
 bool CheckedNodes::run(const KernelInput& input, Kernel& kernel, std::vector<float>& out,
                        KernelCounts& counts, NodeCheck& check) {
   if (!nodes_.load(input)) return false;
-  pick(input);
-  KernelInput some = input;
-  some.only = &only_;
-  KernelCounts sums = kernel.run(some, sums_);
-  sums.without_sample = 0;  // counted when all is settled
-
   check = {};
-  for (const int colours : kPalettes) {
-    check.colours = nodes_.evaluate(colours, values_, support_);
-    const double error = measure(input, check);
-    if (error <= tolerance_) break;
-    if (check.colours < colours || colours == kPalettes.back()) {
+  std::size_t palette = 0;
+  while (nodes_.choose_palette(kPalettes[palette]) > kMostResidual &&
+         palette + 1 < kPalettes.size()) {
+    ++palette;
+  }
+  check.colours = nodes_.evaluate(values_, support_);
+  counts = sum_first(input, kernel, check);
+  while (measure(input, check) > tolerance_) {
+    if (palette + 1 == kPalettes.size() || check.colours < kPalettes[palette]) {
       if (!always_) return false;
       break;
     }
+    nodes_.choose_palette(kPalettes[++palette]);
+    check.colours = nodes_.evaluate(values_, support_);
   }
-  check.targets = support_.size();
-  check.pairs = double(sums.pairs) / double(std::max<std::size_t>(picked_.size(), 1)) *
-                double(support_.size());
-  counts.pairs += sums.pairs;
-  settle_uncertain(input, kernel, values_, counts, check);
+  settle_uncertain(input, kernel, counts, check);
   out.swap(values_);
   return true;
 }

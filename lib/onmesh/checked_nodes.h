@@ -15,7 +15,7 @@ struct NodeCheck {
   double squared_error = 0;   ///< their sum
   double largest_error = 0;   ///< of all values compared, also of the most uncertain targets
   int colours = 0;            ///< the largest palette
-  /// Pairs within the radius of all targets, estimated from those of the targets picked at random.
+  /// Pairs within the radius of all targets, estimated from those of the targets summed first.
   double pairs = 0;
 
   void add(const NodeCheck& other);
@@ -29,12 +29,13 @@ class CheckedNodes {
 
   /// Filter all targets in the patch's core faces.
   ///
-  /// The RMS error is measured on up to 64 targets of two places, picked by a hash of the patch;
-  /// the palette grows from 16 colours until it is within the tolerance, up to 64. Targets with
-  /// little support (the weights of less than a few texels) are summed directly; of the others, the
-  /// 64 with the least (if it is little at all) are checked too, and if one is far off, more are
-  /// summed directly. \param kernel does the direct sums \return false if the patch is to be summed
-  /// directly instead: its nodes are too coarse, or the
+  /// The RMS error is measured on up to 64 targets, spread over a face that is picked by a hash of
+  /// the patch; the palette grows from 16 colours (more where those are far from the patch's) until
+  /// it is within the tolerance, up to 64. Targets with little support (the weights of less than a
+  /// few texels) are summed directly; of the others, the 64 with the least (if it is little at all)
+  /// are checked too, and if one is far off, more are summed directly.
+  /// \param kernel does the direct sums
+  /// \return false if the patch is to be summed directly instead: its nodes are too coarse, or the
   ///   tolerance is not met
   bool run(const KernelInput& input, Kernel& kernel, std::vector<float>& out, KernelCounts& counts,
            NodeCheck& check);
@@ -49,17 +50,28 @@ class CheckedNodes {
 
  private:
   void pick(const KernelInput& input);
+  /// All targets with less support than `little`, then the least supported of the others.
+  void find_doubtful(float little);
+  /// Fill sums_ for those of the targets where they are not known yet.
+  KernelCounts sum_directly(const KernelInput& input, Kernel& kernel,
+                            const std::vector<Index>& targets);
+  /// The direct sums of targets picked at random and, if they are few, of doubtful ones.
+  KernelCounts sum_first(const KernelInput& input, Kernel& kernel, NodeCheck& check);
   double measure(const KernelInput& input, NodeCheck& check) const;
-  void settle_uncertain(const KernelInput& input, Kernel& kernel, std::vector<float>& out,
-                        KernelCounts& counts, NodeCheck& check);
+  void settle_uncertain(const KernelInput& input, Kernel& kernel, KernelCounts& counts,
+                        NodeCheck& check);
 
   NodeKernel nodes_;
-  const bool is_gaussian_;
+  const double radius_;
   const double tolerance_;
   const bool always_;
-  std::vector<unsigned char> only_;
-  std::vector<Index> picked_;
-  std::vector<float> values_, sums_, support_;
+  std::vector<float> values_, support_;  ///< of the nodes
+  std::vector<float> sums_;              ///< of the direct sum, where it was asked for
+  std::vector<unsigned char> is_summed_, only_;
+  std::vector<float> some_sums_;  ///< of the targets of one call
+  std::vector<Index> picked_;     ///< at random
+  std::vector<Index> doubtful_;   ///< the first little_supported_ are to be summed directly
+  std::size_t little_supported_ = 0;
 };
 
 }  // namespace onmesh

@@ -28,7 +28,7 @@ double thread_seconds() {
 double target_weight(double targets, bool by_nodes, double targets_per_square_sigma) {
   if (!by_nodes) return std::clamp(targets / 128, 2048.0, 32768.0);
   return std::min(std::max(512 * targets_per_square_sigma, 8192.0),
-                  std::clamp(targets / 64, 2048.0, 524288.0));
+                  std::clamp(targets / 48, 2048.0, 524288.0));
 }
 
 /// Whether it is worth evaluating on nodes. Direct sums that take no time to speak of are better.

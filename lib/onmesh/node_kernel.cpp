@@ -1,7 +1,11 @@
 #include "onmesh/node_kernel.h"
 
+#include <hwy/aligned_allocator.h>
+#include <hwy/cache_control.h>
+
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <type_traits>
 
 #include "onmesh/node_gather.h"
 
@@ -13,14 +17,12 @@
 #include <hwy/highway.h>
 
 #include "onmesh/exp2-inl.h"
+#include "onmesh/node_samples-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace onmesh {
 namespace HWY_NAMESPACE {
 namespace {
-
-using D = hn::CappedTag<float, Palette::kLanes>;
-using V = hn::Vec<D>;
 
 /// x := 2^x. \pre the vector's size is a multiple of kLanes
 void raise(std::vector<float>& x) {
@@ -29,75 +31,180 @@ void raise(std::vector<float>& x) {
     hn::StoreU(exp2(d, hn::LoadU(d, x.data() + i)), d, x.data() + i);
 }
 
-/// likeness[record][k] = f(|colour of the record - c_k|).
-void compare(const NodeWork& work, const Palette& palette, const NodeWork::Records& records,
-             const NodeWork::Run& run, std::vector<float>& likeness) {
-  const D d;
-  const std::size_t count = run.end - run.begin, padded = palette.padded;
-  if (likeness.size() < count * padded) likeness.resize(2 * count * padded);
-  const auto channels = std::size_t(work.range_channels);
-  for (std::size_t r = 0; r < count; ++r) {
-    const float* const colour =
-        records.values.data() + (run.begin + r) * work.stride() + NodeWork::kBarycentrics + 1;
-    for (std::size_t k = 0; k < padded; k += hn::Lanes(d)) {
-      V x = hn::Zero(d);
-      for (std::size_t c = 0; c < channels; ++c) {
-        const V difference =
-            hn::Sub(hn::Set(d, colour[c]), hn::LoadU(d, palette.colours.data() + c * padded + k));
-        x = hn::NegMulAdd(difference, difference, x);
-      }
-      hn::StoreU(exp2(d, x), d, likeness.data() + r * padded + k);
+/// Planes are summed in groups of up to so many, for which the sums stay in registers.
+constexpr std::size_t kGroup = 4;
+
+/// Buffers for one chunk of samples.
+struct Scratch {
+  Quarters quarters;
+  Chunk chunk;
+  std::vector<Chunk::Array> planes;  ///< per plane and corner: what a sample adds there
+  /// Of samples to the palette's colours: lanes are colours for splatting, samples for slicing.
+  hwy::AlignedFreeUniquePtr<float[]> likeness;
+  std::vector<Chunk::Array> results;  ///< per plane
+};
+
+/// Call with the number of range channels as a constant: 0 stands for any number.
+template <typename Call>
+void with_range_channels(int channels, const Call& call) {
+  switch (channels) {
+    case 1:
+      return call(std::integral_constant<int, 1>());
+    case 3:
+      return call(std::integral_constant<int, 3>());
+    default:
+      return call(std::integral_constant<int, 0>());
+  }
+}
+
+/// Call for groups of planes with the first and, as a constant, their number.
+template <typename Call>
+void for_plane_groups(std::size_t planes, const Call& call) {
+  std::size_t p = 0;
+  for (; p + kGroup <= planes; p += kGroup) call(p, std::integral_constant<std::size_t, kGroup>());
+  for (; p + 2 <= planes; p += 2) call(p, std::integral_constant<std::size_t, 2>());
+  if (p < planes) call(p, std::integral_constant<std::size_t, 1>());
+}
+
+/// Call for every chunk of the samples of a face with the part of the face that it is in.
+template <typename IsWanted, typename Call>
+void for_chunks(const NodeKernelState& s, const Samples& samples, Index local_face,
+                Scratch& scratch, const IsWanted& is_wanted, const Call& call) {
+  const Index f = s.input.patch->faces[local_face];
+  const Index begin = samples.face_offsets[f], end = samples.face_offsets[f + 1];
+  if (begin == end) return;
+  const bool is_split = s.subnodes.is_split[local_face] != 0;
+  const int parts = is_split ? 4 : 1;
+  std::array<FacePart, 4> part;
+  std::array<bool, 4> wanted{};
+  for (int q = 0; q < parts; ++q) {
+    part[q] = part_of(*s.input.patch, s.subnodes, local_face, q);
+    wanted[q] = is_wanted(part[q].corners);
+  }
+  if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) return;
+  const Sample* const first = samples.samples.data() + begin;
+  // Colours are all over the texture; none should be waited for by itself.
+  const Colours& texels = s.input.colours;
+  for (const Sample* sample = first; sample != first + (end - begin); ++sample)
+    hwy::Prefetch(texels.values + std::size_t(sample->texel) * std::size_t(texels.stride));
+  scratch.quarters.sort(first, end - begin, is_split);
+  for (int q = 0; q < parts; ++q) {
+    if (!wanted[q]) continue;
+    const Index* numbers = scratch.quarters.numbers(q);
+    for (std::size_t left = scratch.quarters.count(q); left > 0;) {
+      const std::size_t count = std::min(left, Chunk::kSize);
+      scratch.chunk.load(s.work, s.input.colours, part[q], first, numbers, count);
+      call(part[q], first, numbers);
+      numbers += count;
+      left -= count;
     }
   }
 }
 
-/// Add `count` values per record and corner to the corners' sums, `values(record, i)` giving the
-/// i-th vector of them.
-template <typename Values>
-HWY_INLINE void splat_run(const NodeWork& work, const NodeWork::Run& run, std::size_t row,
-                          std::size_t at, float* sums, const Values& values) {
+/// What the chunk's samples add at their corners: their weights, and their colours times those.
+void weigh(const NodeKernelState& s, Scratch& scratch) {
   const D d;
-  V sum0 = hn::Zero(d), sum1 = sum0, sum2 = sum0;
-  const float* record = work.samples.values.data() + run.begin * work.stride();
-  for (std::size_t r = run.begin; r < run.end; ++r, record += work.stride()) {
-    const V value = values(record, r - run.begin);
-    sum0 = hn::MulAdd(hn::Set(d, record[0]), value, sum0);
-    sum1 = hn::MulAdd(hn::Set(d, record[1]), value, sum1);
-    sum2 = hn::MulAdd(hn::Set(d, record[2]), value, sum2);
+  const Chunk& chunk = scratch.chunk;
+  scratch.planes.resize(3 * s.work.planes());
+  for (std::size_t i = 0; i < chunk.count; i += hn::Lanes(d)) {
+    const V weight = hn::LoadU(d, &chunk.weights[i]);
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const V share = hn::Mul(hn::LoadU(d, &chunk.corners[corner][i]), weight);
+      hn::StoreU(share, d, &scratch.planes[corner][i]);
+      for (std::size_t c = 0; c < chunk.colours.size(); ++c) {
+        hn::StoreU(hn::Mul(share, hn::LoadU(d, &chunk.colours[c][i])), d,
+                   &scratch.planes[3 * (c + 1) + corner][i]);
+      }
+    }
   }
-  const auto add = [&](Index subnode, V sum) {
-    float* const to = sums + subnode * row + at;
-    hn::StoreU(hn::Add(hn::LoadU(d, to), sum), d, to);
+}
+
+/// likeness[sample][lane] = f(|colour of the sample - c_k|) for k = first, ...
+template <int kChannels>
+void compare_to_colours(const NodeKernelState& s, std::size_t first, Scratch& scratch) {
+  const D d;
+  const auto channels = kChannels > 0 ? std::size_t(kChannels) : std::size_t(s.work.range_channels);
+  const Chunk& chunk = scratch.chunk;
+  for (std::size_t r = 0; r < chunk.count; ++r) {
+    V x = hn::Zero(d);
+    for (std::size_t c = 0; c < channels; ++c) {
+      const float* const colours = s.palette.colours.data() + c * s.palette.padded + first;
+      const V difference = hn::Sub(hn::Set(d, chunk.colours[c][r]), hn::LoadU(d, colours));
+      x = hn::NegMulAdd(difference, difference, x);
+    }
+    hn::Store(exp2(d, x), d, scratch.likeness.get() + r * hn::Lanes(d));
+  }
+}
+
+/// likeness[k][lane] = f(|colour of the sample - c_k|) for samples first, ...
+template <int kChannels>
+void compare_to_samples(const NodeKernelState& s, std::size_t first, Scratch& scratch) {
+  const D d;
+  const auto channels = kChannels > 0 ? std::size_t(kChannels) : std::size_t(s.work.range_channels);
+  for (std::size_t k = 0; k < s.palette.size; ++k) {
+    V x = hn::Zero(d);
+    for (std::size_t c = 0; c < channels; ++c) {
+      const V own = hn::LoadU(d, &scratch.chunk.colours[c][first]);
+      const V difference = hn::Sub(own, hn::Set(d, s.palette.colours[c * s.palette.padded + k]));
+      x = hn::NegMulAdd(difference, difference, x);
+    }
+    hn::Store(exp2(d, x), d, scratch.likeness.get() + k * hn::Lanes(d));
+  }
+}
+
+/// Add kPlanes planes of the chunk to a vector of each of the corners' rows.
+template <std::size_t kPlanes>
+HWY_INLINE void add_planes(const Scratch& scratch, std::size_t plane,
+                           const std::array<float*, 3>& rows, std::size_t padded) {
+  const D d;
+  V sums[3 * kPlanes];
+  for (V& sum : sums) sum = hn::Zero(d);
+  const Chunk::Array* const from = scratch.planes.data() + 3 * plane;
+  const float* likeness = scratch.likeness.get();
+  for (std::size_t r = 0; r < scratch.chunk.count; ++r, likeness += hn::Lanes(d)) {
+    const V like = hn::Load(d, likeness);
+    for (std::size_t j = 0; j < 3 * kPlanes; ++j)
+      sums[j] = hn::MulAdd(hn::Set(d, from[j][r]), like, sums[j]);
+  }
+  for (std::size_t j = 0; j < 3 * kPlanes; ++j) {
+    float* const to = rows[j % 3] + (plane + j / 3) * padded;
+    hn::StoreU(hn::Add(hn::LoadU(d, to), sums[j]), d, to);
+  }
+}
+
+void splat_chunk(NodeKernelState& s, const FacePart& part, Scratch& scratch) {
+  const D d;
+  weigh(s, scratch);
+  std::array<float*, 3> rows;
+  for (std::size_t k = 0; k < 3; ++k) rows[k] = s.splatted.data() + part.corners[k] * s.row;
+  if (s.work.range_channels == 0) {
+    for (std::size_t j = 0; j < scratch.planes.size(); ++j) {
+      V sum = hn::Zero(d);
+      for (std::size_t i = 0; i < scratch.chunk.count; i += hn::Lanes(d))
+        sum = hn::Add(sum, hn::LoadU(d, &scratch.planes[j][i]));
+      rows[j % 3][j / 3] += hn::GetLane(hn::SumOfLanes(d, sum));
+    }
+    return;
+  }
+  with_range_channels(s.work.range_channels, [&](auto channels) HWY_ATTR {
+    for (std::size_t k = 0; k < s.palette.padded; k += hn::Lanes(d)) {
+      compare_to_colours<channels.value>(s, k, scratch);
+      const std::array<float*, 3> at{rows[0] + k, rows[1] + k, rows[2] + k};
+      for_plane_groups(s.work.planes(), [&](std::size_t plane, auto count) HWY_ATTR {
+        add_planes<count.value>(scratch, plane, at, s.palette.padded);
+      });
+    }
+  });
+}
+
+void splat(NodeKernelState& s, Scratch& scratch) {
+  const auto is_wanted = [&](const std::array<Index, 3>& corners) {
+    return (s.work.used[corners[0]] | s.work.used[corners[1]] | s.work.used[corners[2]]) != 0;
   };
-  add(run.corners[0], sum0);
-  add(run.corners[1], sum1);
-  add(run.corners[2], sum2);
-}
-
-void splat(NodeKernelState& s) {
-  const D d;
-  const std::size_t lanes = hn::Lanes(d), padded = s.palette.padded;
-  const std::size_t planes = s.work.planes();
-  float* const sums = s.splatted.data();
-  for (const NodeWork::Run& run : s.work.samples.runs) {
-    if (s.work.range_channels == 0) {
-      for (std::size_t i = 0; i < s.row; i += lanes) {
-        splat_run(s.work, run, s.row, i, sums, [&](const float* record, std::size_t) {
-          return hn::LoadU(d, record + NodeWork::kBarycentrics + i);
-        });
-      }
-      continue;
-    }
-    compare(s.work, s.palette, s.work.samples, run, s.likeness);
-    for (std::size_t p = 0; p < planes; ++p) {
-      for (std::size_t k = 0; k < padded; k += lanes) {
-        splat_run(s.work, run, s.row, p * padded + k, sums,
-                  [&](const float* record, std::size_t r) {
-                    return hn::Mul(hn::Set(d, record[NodeWork::kBarycentrics + p]),
-                                   hn::LoadU(d, s.likeness.data() + r * padded + k));
-                  });
-      }
-    }
+  for (Index f = 0; f < s.input.patch->faces.size(); ++f) {
+    for_chunks(
+        s, *s.input.sources, f, scratch, is_wanted,
+        [&](const FacePart& part, const Sample*, const Index*) { splat_chunk(s, part, scratch); });
   }
 }
 
@@ -178,58 +285,116 @@ void fill_in(NodeKernelState& s) {
   }
 }
 
-/// sums: per plane the interpolated value at a target.
-HWY_INLINE void interpolate(const NodeKernelState& s, const NodeWork::Run& run, const float* record,
-                            std::size_t r, float* sums) {
+/// results[plane][first ...] for kPlanes planes: the rows' values interpolated at each sample,
+/// summed by its likeness to the palette's colours.
+template <std::size_t kPlanes>
+HWY_INLINE void read_planes(const NodeKernelState& s, std::size_t plane,
+                            const std::array<const float*, 3>& rows, std::size_t first,
+                            Scratch& scratch) {
   const D d;
-  const float* const n0 = s.blurred.data() + run.corners[0] * s.row;
-  const float* const n1 = s.blurred.data() + run.corners[1] * s.row;
-  const float* const n2 = s.blurred.data() + run.corners[2] * s.row;
-  const V a0 = hn::Set(d, record[0]), a1 = hn::Set(d, record[1]), a2 = hn::Set(d, record[2]);
-  const auto at = [&](std::size_t k) {
-    const V two = hn::MulAdd(a1, hn::LoadU(d, n1 + k), hn::Mul(a2, hn::LoadU(d, n2 + k)));
-    return hn::MulAdd(a0, hn::LoadU(d, n0 + k), two);
-  };
-  if (s.work.range_channels == 0) {
-    for (std::size_t k = 0; k < s.row; k += hn::Lanes(d)) hn::StoreU(at(k), d, sums + k);
-    return;
-  }
   const std::size_t padded = s.palette.padded;
-  const float* const likeness = s.likeness.data() + r * padded;
-  for (std::size_t p = 0; p < s.work.planes(); ++p) {
+  V sums[3 * kPlanes];
+  for (V& sum : sums) sum = hn::Zero(d);
+  for (std::size_t k = 0; k < s.palette.size; ++k) {
+    const V like = hn::Load(d, scratch.likeness.get() + k * hn::Lanes(d));
+    for (std::size_t j = 0; j < 3 * kPlanes; ++j) {
+      const V value = hn::Set(d, rows[j % 3][(plane + j / 3) * padded + k]);
+      sums[j] = hn::MulAdd(value, like, sums[j]);
+    }
+  }
+  for (std::size_t p = 0; p < kPlanes; ++p) {
     V sum = hn::Zero(d);
-    for (std::size_t k = 0; k < padded; k += hn::Lanes(d))
-      sum = hn::MulAdd(hn::LoadU(d, likeness + k), at(p * padded + k), sum);
-    sums[p] = hn::GetLane(hn::SumOfLanes(d, sum));
+    for (std::size_t k = 0; k < 3; ++k)
+      sum = hn::MulAdd(hn::LoadU(d, &scratch.chunk.corners[k][first]), sums[3 * p + k], sum);
+    hn::StoreU(sum, d, &scratch.results[plane + p][first]);
   }
 }
 
-void slice(NodeKernelState& s, std::vector<float>& out, std::vector<float>& support) {
-  const NodeWork& work = s.work;
-  const auto channels = std::size_t(work.channels);
-  std::vector<float> sums(s.row + work.planes());
-  for (const NodeWork::Run& run : work.targets.runs) {
-    if (work.range_channels > 0) compare(work, s.palette, work.targets, run, s.likeness);
-    const float* record = work.targets.values.data() + run.begin * work.stride();
-    for (std::size_t r = run.begin; r < run.end; ++r, record += work.stride()) {
-      interpolate(s, run, record, r - run.begin, sums.data());
-      const Index slot = work.target_slots[r];
-      if (!(sums[0] > 0)) continue;
-      support[slot] = sums[0] / work.target_areas[r];
-      const float inverse = 1 / (sums[0] * work.colour_scale);
-      for (std::size_t c = 0; c < channels; ++c)
-        out[slot * channels + c] = work.reference[c] + sums[1 + c] * inverse;
+/// The same for the Gaussian filter, all planes.
+HWY_INLINE void interpolate(const std::array<const float*, 3>& rows, std::size_t first,
+                            Scratch& scratch) {
+  const D d;
+  for (std::size_t p = 0; p < scratch.results.size(); ++p) {
+    V sum = hn::Zero(d);
+    for (std::size_t k = 0; k < 3; ++k)
+      sum = hn::MulAdd(hn::LoadU(d, &scratch.chunk.corners[k][first]), hn::Set(d, rows[k][p]), sum);
+    hn::StoreU(sum, d, &scratch.results[p][first]);
+  }
+}
+
+/// Turn a vector of sums into supports (0 where the own value is kept) and means.
+HWY_INLINE void divide(const NodeWork& work, std::size_t first, Scratch& scratch) {
+  const D d;
+  float* const sums = &scratch.results[0][first];
+  const V sum = hn::LoadU(d, sums), own = hn::LoadU(d, &scratch.chunk.weights[first]);
+  const V zero = hn::Zero(d);
+  const auto is_usable = hn::And(hn::Gt(sum, zero), hn::Gt(own, zero));
+  hn::StoreU(hn::IfThenElseZero(is_usable, hn::Div(sum, own)), d, sums);
+  const V inverse = hn::Div(hn::Set(d, 1), hn::Mul(sum, hn::Set(d, work.colour_scale)));
+  for (std::size_t c = 0; c + 1 < scratch.results.size(); ++c) {
+    float* const at = &scratch.results[1 + c][first];
+    hn::StoreU(hn::MulAdd(hn::LoadU(d, at), inverse, hn::Set(d, work.reference[c])), d, at);
+  }
+}
+
+void slice_chunk(const NodeKernelState& s, const FacePart& part, Scratch& scratch) {
+  scratch.results.resize(s.work.planes());
+  std::array<const float*, 3> rows;
+  for (std::size_t k = 0; k < 3; ++k) rows[k] = s.blurred.data() + part.corners[k] * s.row;
+  with_range_channels(s.work.range_channels, [&](auto channels) HWY_ATTR {
+    for (std::size_t i = 0; i < scratch.chunk.count; i += hn::Lanes(D())) {
+      if (s.work.range_channels == 0) {
+        interpolate(rows, i, scratch);
+      } else {
+        compare_to_samples<channels.value>(s, i, scratch);
+        for_plane_groups(s.work.planes(), [&](std::size_t plane, auto count) HWY_ATTR {
+          read_planes<count.value>(s, plane, rows, i, scratch);
+        });
+      }
+      divide(s.work, i, scratch);
     }
+  });
+}
+
+void slice(const NodeKernelState& s, Scratch& scratch, std::vector<float>& out,
+           std::vector<float>& support) {
+  const Patch& patch = *s.input.patch;
+  const Samples& targets = *s.input.targets;
+  const Colours& texels = s.input.colours;
+  const auto channels = std::size_t(s.work.channels);
+  Index slots = 0;
+  for (Index f = 0; f < patch.core_faces; ++f) {
+    const auto store = [&](const FacePart& part, const Sample* samples, const Index* numbers) {
+      slice_chunk(s, part, scratch);
+      for (std::size_t i = 0; i < scratch.chunk.count; ++i) {
+        const Index slot = slots + numbers[i];
+        float* const to = out.data() + slot * channels;
+        support[slot] = scratch.results[0][i];
+        if (support[slot] > 0) {
+          for (std::size_t c = 0; c < channels; ++c) to[c] = scratch.results[1 + c][i];
+        } else {
+          const Index texel = samples[numbers[i]].texel;
+          std::copy_n(texels.values + std::size_t(texel) * std::size_t(texels.stride), channels,
+                      to);
+        }
+      }
+    };
+    for_chunks(
+        s, targets, f, scratch, [](const std::array<Index, 3>&) { return true; }, store);
+    slots += targets.face_offsets[patch.faces[f] + 1] - targets.face_offsets[patch.faces[f]];
   }
 }
 
 void evaluate(NodeKernelState& s, std::vector<float>& out, std::vector<float>& support) {
-  splat(s);
+  Scratch scratch;
+  const std::size_t compared = std::max(Chunk::kSize, s.palette.padded);
+  scratch.likeness = hwy::AllocateAligned<float>(compared * hn::Lanes(D()));
+  splat(s, scratch);
   share_out(s);
   blur(s);
   if (s.work.range_channels > 0) solve(s);
   fill_in(s);
-  slice(s, out, support);
+  slice(s, scratch, out, support);
 }
 
 }  // namespace
@@ -241,6 +406,20 @@ HWY_AFTER_NAMESPACE();
 namespace onmesh {
 HWY_EXPORT(raise);
 HWY_EXPORT(evaluate);
+
+namespace {
+
+/// Targets of the patch's core.
+Index count_targets(const KernelInput& input) {
+  Index count = 0;
+  for (Index f = 0; f < input.patch->core_faces; ++f) {
+    const Index face = input.patch->faces[f];
+    count += input.targets->face_offsets[face + 1] - input.targets->face_offsets[face];
+  }
+  return count;
+}
+
+}  // namespace
 
 NodeKernel::NodeKernel(const KernelOptions& options)
     : options_(options), state_(std::make_unique<NodeKernelState>()) {}
@@ -260,28 +439,34 @@ bool NodeKernel::load(const KernelInput& input) {
   const std::size_t entries = s.blur.subnodes.size();
   s.blur.exponents.resize((entries + Palette::kLanes - 1) / Palette::kLanes * Palette::kLanes);
   HWY_DYNAMIC_DISPATCH(raise)(s.blur.exponents);
-  gather(input, s.subnodes, s.blur, options_, s.work, s.kept);
+  survey(input, s.subnodes, s.blur, options_, s.work);
+  s.palette = {};
+  s.input = input;
   return true;
 }
 
-int NodeKernel::evaluate(int colours, std::vector<float>& out, std::vector<float>& support) {
+double NodeKernel::choose_palette(int colours) {
   NodeKernelState& s = *state_;
-  out = s.kept;
-  support.assign(s.work.slots, 0);
-  const NodeWork::Records& samples = s.work.samples;
-  if (samples.count == 0) return 0;
-  if (s.work.range_channels > 0) {
-    s.palette =
-        make_palette(samples.values.data() + NodeWork::kBarycentrics + 1, samples.count,
-                     s.work.stride(), std::size_t(s.work.range_channels), std::size_t(colours));
-    s.row = s.work.planes() * s.palette.padded;
-  } else {
-    s.row = (s.work.planes() + Palette::kLanes - 1) / Palette::kLanes * Palette::kLanes;
-  }
+  if (s.work.colours.empty()) return 0;
+  const auto channels = std::size_t(s.work.range_channels);
+  s.palette = make_palette(s.work.colours.data(), s.work.colours.size() / channels, channels,
+                           channels, std::size_t(colours));
+  return s.palette.residual;
+}
+
+int NodeKernel::evaluate(std::vector<float>& out, std::vector<float>& support) {
+  NodeKernelState& s = *state_;
+  const std::size_t planes = s.work.planes();
+  s.row = s.work.range_channels > 0
+              ? planes * s.palette.padded
+              : (planes + Palette::kLanes - 1) / Palette::kLanes * Palette::kLanes;
+  const Index targets = count_targets(s.input);
+  support.resize(targets);
+  out.resize(targets * std::size_t(s.work.channels));
   s.splatted.assign(s.subnodes.size() * s.row, 0);
   s.blurred.resize(s.splatted.size());
   HWY_DYNAMIC_DISPATCH(evaluate)(s, out, support);
-  return s.work.range_channels > 0 ? int(s.palette.size) : 0;
+  return int(s.palette.size);
 }
 
 }  // namespace onmesh

@@ -29,14 +29,18 @@ class NodeKernel {
   /// \return false if the subnodes are too coarse for sigma: then evaluate() must not be called
   bool load(const KernelInput& input);
 
-  /// Filter all targets in the patch's core faces with at most `colours` palette colours (Gaussian
-  /// filter: not used).
+  /// Choose the palette for evaluate(); without effect for the Gaussian filter.
+  /// \param colours the most wanted; fewer if there are fewer distinct ones
+  /// \return Palette::residual
+  double choose_palette(int colours);
+
+  /// Filter all targets in the patch's core faces.
   /// \param out as Kernel::run(); targets with a value that is not finite keep theirs
   /// \param support per target in that order: the sum of weights in units of the target's own area
   ///   (the target's own weight alone is 1); 0 for those that kept their values. Where it is small,
   ///   few samples look like the target and the result is uncertain.
-  /// \return colours used; 0 for the Gaussian filter
-  int evaluate(int colours, std::vector<float>& out, std::vector<float>& support);
+  /// \return the palette's colours; 0 for the Gaussian filter
+  int evaluate(std::vector<float>& out, std::vector<float>& support);
 
  private:
   KernelOptions options_;
