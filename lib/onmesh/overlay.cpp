@@ -193,22 +193,24 @@ class Layouter {
 
 }  // namespace
 
-NodePoint Overlay::locate(const SurfacePoint& point) const {
-  NodePoint best;
+Index Overlay::piece_at(const SurfacePoint& point) const {
+  Index best = kNone;
   double most = -1e300;
   for (Index i = face_offsets[point.face]; i < face_offsets[point.face + 1]; ++i) {
-    const Vec3 b = pieces[i].to_node * point.barycentric;
-    const double least = b.minCoeff();
+    const double least = (pieces[i].to_node * point.barycentric).minCoeff();
     if (least > most) {
       most = least;
-      best = {pieces[i].node_face, b};
+      best = i;
     }
   }
-  if (best.face != kNone) {
-    best.barycentric = best.barycentric.cwiseMax(0.0);
-    best.barycentric /= best.barycentric.sum();
-  }
   return best;
+}
+
+NodePoint Overlay::locate(const SurfacePoint& point) const {
+  const Index piece = piece_at(point);
+  if (piece == kNone) return {};
+  const Vec3 b = (pieces[piece].to_node * point.barycentric).cwiseMax(0.0);
+  return {pieces[piece].node_face, b / b.sum()};
 }
 
 Overlay make_overlay(const IntrinsicTriangulation& triangulation) {
