@@ -1,6 +1,7 @@
 #include "onmesh/overlay.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -215,12 +216,15 @@ NodePoint Overlay::locate(const SurfacePoint& point) const {
 
 Overlay make_overlay(const IntrinsicTriangulation& triangulation) {
   const Index faces = triangulation.input().face_count();
-  // A few large blocks: every block keeps marks for all intrinsic faces.
-  const Index blocks = std::clamp<Index>(faces / 2048, 1, 16), size = (faces + blocks - 1) / blocks;
+  const Index least_pieces = std::max(faces, triangulation.edges().face_count());
+  const Index blocks = std::clamp<Index>(least_pieces / 4096, 1, std::clamp<Index>(faces, 1, 64)),
+              size = (faces + blocks - 1) / blocks;
+  // One for every thread, because each keeps marks for all intrinsic faces.
+  tbb::enumerable_thread_specific<Layouter> layouters([&] { return Layouter(triangulation); });
   std::vector<std::vector<OverlayPiece>> pieces(blocks);
   std::vector<Index> counts(faces, 0);
   tbb::parallel_for(Index{0}, blocks, [&](Index block) {
-    Layouter layouter(triangulation);
+    Layouter& layouter = layouters.local();
     for (Index f = block * size; f < std::min(faces, (block + 1) * size); ++f) {
       const std::size_t before = pieces[block].size();
       layouter.lay_out(f, pieces[block]);
