@@ -4,6 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/parallel_reduce.h>
 #include <tbb/task_arena.h>
 
@@ -180,13 +181,20 @@ class Results {
     };
     const Range none{std::vector<float>(channels_.size(), std::numeric_limits<float>::infinity()),
                      std::vector<float>(channels_.size(), -std::numeric_limits<float>::infinity())};
-    const auto widen = [&](Range& range, Index texel) {
-      const float* const own = texture_.texel(texel);
+    // A channel at a time, so that the range stays in registers.
+    const auto widen = [&](Range& range, std::size_t begin, std::size_t end, const auto& texel_of) {
       for (std::size_t c = 0; c < channels_.size(); ++c) {
-        const float value = own[channels_[c]];
-        if (!std::isfinite(value)) continue;
-        range.lowest[c] = std::min(range.lowest[c], value);
-        range.highest[c] = std::max(range.highest[c], value);
+        float lowest = range.lowest[c], highest = range.highest[c];
+        for (std::size_t k = begin; k < end; ++k) {
+          const Index texel = texel_of(k);
+          if (texel == kNone) continue;
+          const float value = texture_.texel(texel)[channels_[c]];
+          if (!std::isfinite(value)) continue;
+          lowest = std::min(lowest, value);
+          highest = std::max(highest, value);
+        }
+        range.lowest[c] = lowest;
+        range.highest[c] = highest;
       }
     };
     const auto join = [](Range a, const Range& b) {
@@ -196,22 +204,21 @@ class Results {
       }
       return a;
     };
-    const auto widest = [&](std::size_t count, const auto& add) {
+    const auto widest = [&](std::size_t count, const auto& texel_of) {
       return tbb::parallel_reduce(
-          tbb::blocked_range<std::size_t>(0, count, 65536), none,
+          tbb::blocked_range<std::size_t>(0, count, 16384), none,
           [&](const tbb::blocked_range<std::size_t>& part, Range range) {
-            for (std::size_t k = part.begin(); k < part.end(); ++k) add(range, k);
+            widen(range, part.begin(), part.end(), texel_of);
             return range;
           },
           join);
     };
-    Range all = widest(map.coverage.size(), [&](Range& range, std::size_t t) {
-      if (map.coverage[t] == Coverage::covered) widen(range, Index(t));
+    Range all = widest(map.coverage.size(), [&](std::size_t t) {
+      return map.coverage[t] == Coverage::covered ? Index(t) : kNone;
     });
     if (poisson) {
-      all = join(all, widest(sources.samples.size(), [&](Range& range, std::size_t k) {
-                   widen(range, sources.samples[k].texel);
-                 }));
+      all = join(all, widest(sources.samples.size(),
+                             [&](std::size_t k) { return sources.samples[k].texel; }));
     }
     lowest_ = std::move(all.lowest);
     highest_ = std::move(all.highest);
@@ -284,7 +291,12 @@ Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& o
 
   stages.begin("refine");
   RefineReport refined;
-  NodeSurface surface = refine(setup.mesh, setup.cleaning, refinement_for(setup), &refined);
+  NodeSurface surface;
+  Image image;
+  // Most of the refinement runs on one thread; another one can copy the texture meanwhile.
+  tbb::parallel_invoke(
+      [&] { surface = refine(setup.mesh, setup.cleaning, refinement_for(setup), &refined); },
+      [&] { image = texture; });
   report.refinement = refined.bisected ? "bisection" : "intrinsic";
   if (plan.bridge > 0) report.bridges = add_bridges(setup.mesh, plan.bridge, surface);
   report.nodes = surface.nodes.nodes.size();
@@ -323,7 +335,6 @@ Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& o
                  : "the default for meshes that are not manifold: " + setup.cleaning.defects())
           : "asked for";
   report.instruction_set = kernel_target();
-  Image image = texture;
   std::vector<float> packed;
   PatchWork work;
   work.nodes = &surface.nodes;

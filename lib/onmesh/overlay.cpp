@@ -1,6 +1,7 @@
 #include "onmesh/overlay.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -193,32 +194,37 @@ class Layouter {
 
 }  // namespace
 
-NodePoint Overlay::locate(const SurfacePoint& point) const {
-  NodePoint best;
+Index Overlay::piece_at(const SurfacePoint& point) const {
+  Index best = kNone;
   double most = -1e300;
   for (Index i = face_offsets[point.face]; i < face_offsets[point.face + 1]; ++i) {
-    const Vec3 b = pieces[i].to_node * point.barycentric;
-    const double least = b.minCoeff();
+    const double least = (pieces[i].to_node * point.barycentric).minCoeff();
     if (least > most) {
       most = least;
-      best = {pieces[i].node_face, b};
+      best = i;
     }
-  }
-  if (best.face != kNone) {
-    best.barycentric = best.barycentric.cwiseMax(0.0);
-    best.barycentric /= best.barycentric.sum();
   }
   return best;
 }
 
+NodePoint Overlay::locate(const SurfacePoint& point) const {
+  const Index piece = piece_at(point);
+  if (piece == kNone) return {};
+  const Vec3 b = (pieces[piece].to_node * point.barycentric).cwiseMax(0.0);
+  return {pieces[piece].node_face, b / b.sum()};
+}
+
 Overlay make_overlay(const IntrinsicTriangulation& triangulation) {
   const Index faces = triangulation.input().face_count();
-  // A few large blocks: every block keeps marks for all intrinsic faces.
-  const Index blocks = std::clamp<Index>(faces / 2048, 1, 16), size = (faces + blocks - 1) / blocks;
+  const Index least_pieces = std::max(faces, triangulation.edges().face_count());
+  const Index blocks = std::clamp<Index>(least_pieces / 4096, 1, std::clamp<Index>(faces, 1, 64)),
+              size = (faces + blocks - 1) / blocks;
+  // One for every thread, because each keeps marks for all intrinsic faces.
+  tbb::enumerable_thread_specific<Layouter> layouters([&] { return Layouter(triangulation); });
   std::vector<std::vector<OverlayPiece>> pieces(blocks);
   std::vector<Index> counts(faces, 0);
   tbb::parallel_for(Index{0}, blocks, [&](Index block) {
-    Layouter layouter(triangulation);
+    Layouter& layouter = layouters.local();
     for (Index f = block * size; f < std::min(faces, (block + 1) * size); ++f) {
       const std::size_t before = pieces[block].size();
       layouter.lay_out(f, pieces[block]);

@@ -19,7 +19,9 @@ struct Overlay {
   std::vector<Index> face_offsets;  ///< input faces + 1
   std::vector<OverlayPiece> pieces;
 
-  /// The point in the piece that holds it (the largest least coordinate wins; clamped to the face).
+  /// The piece that holds the point: the largest least coordinate wins, then the first.
+  Index piece_at(const SurfacePoint& point) const;
+  /// The point in the piece that holds it, clamped to the face.
   NodePoint locate(const SurfacePoint& point) const;
 };
 

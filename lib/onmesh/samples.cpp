@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "onmesh/texel_hits.h"
@@ -50,57 +51,57 @@ Sample make_sample(Index texel, Vec3 barycentric, double area) {
           static_cast<float>(area)};
 }
 
-// Finds the piece that holds each texel of one input face: every piece is rasterised over the
+// Finds the piece that holds each claim of one input face: every piece is rasterised over the
 // face's claims, and a claim goes to the piece in which its least barycentric coordinate is
 // largest.
-class FaceLocator {
+class PieceFinder {
  public:
-  FaceLocator(const TexelMap& map, const Overlay& overlay, Index face)
+  PieceFinder(const TexelMap& map, const Overlay& overlay, Index face, Index* piece_of)
       : map_(map),
         overlay_(overlay),
         face_(face),
-        begin_(map.face_offsets[face]),
-        end_(map.face_offsets[face + 1]) {}
+        claims_(map.claims.data() + map.face_offsets[face]),
+        count_(map.face_offsets[face + 1] - map.face_offsets[face]),
+        piece_of_(piece_of + map.face_offsets[face]) {}
 
-  void run(Index* face_of, Sample* out) {
-    const Index count = end_ - begin_;
-    if (count == 0) return;
-    const auto [first, last] =
-        std::minmax_element(&map_.claims[begin_], &map_.claims[begin_] + count,
-                            [](auto& a, auto& b) { return a.y < b.y; });
-    top_ = first->y;
-    rows_.assign(static_cast<std::size_t>(last->y - top_) + 2, 0);
-    for (Index i = begin_; i < end_; ++i)
-      ++rows_[static_cast<std::size_t>(map_.claims[i].y - top_) + 1];
-    for (std::size_t r = 1; r < rows_.size(); ++r) rows_[r] += rows_[r - 1];
-    best_.assign(count, {-3e38F, kNone});
-    for (Index p = overlay_.face_offsets[face_]; p < overlay_.face_offsets[face_ + 1]; ++p)
-      rasterise(p);
-    for (Index i = 0; i < count; ++i) {
-      const TexelClaim& claim = map_.claims[begin_ + i];
-      const SurfacePoint point{face_, map_.barycentric(face_, claim)};
-      // Claims that no piece holds lie a rounding error outside all of them.
-      NodePoint at;
-      if (best_[i].piece == kNone) {
-        at = overlay_.locate(point);
-      } else {
-        const OverlayPiece& piece = overlay_.pieces[best_[i].piece];
-        at = {piece.node_face, piece.to_node * point.barycentric};
-      }
-      face_of[i] = at.face;
-      out[i] = make_sample(map_.texel(claim), at.barycentric, map_.texel_area[face_]);
+  // Adds to the pieces' counts of claims.
+  void run(std::vector<Index>& counts) {
+    if (count_ == 0) return;
+    find_rows();
+    std::fill_n(piece_of_, count_, kNone);
+    const Index first = overlay_.face_offsets[face_], beyond = overlay_.face_offsets[face_ + 1];
+    for (Index p = first; p < beyond; ++p) rasterise(p, counts);
+    if (std::accumulate(&counts[first], &counts[first] + (beyond - first), Index{0}) == count_)
+      return;
+    // Claims that no piece holds lie a rounding error outside all of them.
+    for (Index i = 0; i < count_; ++i) {
+      if (piece_of_[i] != kNone) continue;
+      piece_of_[i] = overlay_.piece_at({face_, map_.barycentric(face_, claims_[i])});
+      ++counts[piece_of_[i]];
     }
   }
 
  private:
-  struct Best {
-    float least;
-    Index piece;
-  };
+  void find_rows() {
+    top_ = claims_[0].y;
+    rows_.reserve(std::size_t(claims_[count_ - 1].y - top_) + 2);
+    for (int y = top_; y <= claims_[count_ - 1].y; ++y) {
+      const TexelClaim* const from = claims_ + (rows_.empty() ? 0 : rows_.back());
+      rows_.push_back(
+          Index(std::partition_point(from, claims_ + count_, [y](auto& c) { return c.y < y; }) -
+                claims_));
+    }
+    rows_.push_back(count_);
+  }
 
-  void rasterise(Index p) {
+  // From pixel coordinates (x, y, 1) to barycentric coordinates in the piece's node face.
+  Eigen::Matrix3d to_node(Index piece) const {
+    return overlay_.pieces[piece].to_node * map_.to_barycentric(face_);
+  }
+
+  void rasterise(Index piece, std::vector<Index>& counts) {
     constexpr double kTolerance = 1e-7;
-    const Eigen::Matrix3d to_node = overlay_.pieces[p].to_node * map_.to_barycentric(face_);
+    const Eigen::Matrix3d to_node = this->to_node(piece);
     const Eigen::Matrix3d corners =
         to_node.inverse();  // columns: pixel coordinates of the piece's corners
     if (!corners.allFinite()) return;
@@ -108,16 +109,15 @@ class FaceLocator {
     const auto rows = static_cast<double>(rows_.size() - 1);
     const double first = std::max(0.0, std::ceil(top - 0.5 - 1e-6) - top_);
     const double last = std::min(rows - 1, std::floor(bottom - 0.5 + 1e-6) - top_);
+    const Vec3 slope = to_node.col(0), run = slope.cwiseInverse();
     for (double row = first; row <= last; ++row) {
       const auto r = static_cast<std::size_t>(row);
-      const Index begin = rows_[r], end = rows_[r + 1];
-      if (begin == end) continue;
+      if (rows_[r] == rows_[r + 1]) continue;
       // The columns where all three coordinates exceed the tolerance.
-      const Vec3 base = to_node.col(1) * (row + top_ + 0.5) + to_node.col(2),
-                 slope = to_node.col(0);
+      const Vec3 base = to_node.col(1) * (row + top_ + 0.5) + to_node.col(2);
       double from = -1e300, to = 1e300;
       for (int k = 0; k < 3; ++k) {
-        const double root = (-kTolerance - base[k]) / slope[k];
+        const double root = (-kTolerance - base[k]) * run[k];
         if (slope[k] > 0) {
           from = std::max(from, root);
         } else if (slope[k] < 0) {
@@ -126,37 +126,167 @@ class FaceLocator {
           to = -1e300;
         }
       }
-      const TexelClaim* claim =
-          std::lower_bound(&map_.claims[begin_] + begin, &map_.claims[begin_] + end, from,
-                           [](const TexelClaim& c, double x) { return c.x + 0.5 < x; });
-      for (; claim < &map_.claims[begin_] + end && claim->x + 0.5 <= to; ++claim) {
-        const auto least = static_cast<float>((base + slope * (claim->x + 0.5)).minCoeff());
-        Best& best = best_[static_cast<std::size_t>(claim - &map_.claims[begin_])];
-        if (least > best.least) best = {least, p};
-      }
+      if (from <= to) take(piece, rows_[r], rows_[r + 1], from - 0.5, to - 0.5, counts);
     }
+  }
+
+  // Give the claims of a row with from <= x <= to to the piece, unless another one holds them
+  // better.
+  void take(Index piece, Index begin, Index end, double from, double to,
+            std::vector<Index>& counts) {
+    const int left = claims_[begin].x;
+    Index first = begin, beyond = end;
+    if (claims_[end - 1].x - left == int(end - 1 - begin)) {  // without gaps
+      const double columns = end - begin;
+      first += Index(std::clamp(std::ceil(from) - left, 0.0, columns));
+      beyond = begin + Index(std::clamp(std::floor(to) - left + 1, 0.0, columns));
+    } else {
+      const auto less = [](const TexelClaim& c, double x) { return c.x < x; };
+      first = Index(std::lower_bound(claims_ + begin, claims_ + end, from, less) - claims_);
+      beyond = Index(std::lower_bound(claims_ + first, claims_ + end, std::floor(to) + 1, less) -
+                     claims_);
+    }
+    Index taken = 0;
+    for (Index i = first; i < beyond; ++i) {
+      if (piece_of_[i] != kNone) {
+        if (!(least(piece, i) > least(piece_of_[i], i))) continue;
+        --counts[piece_of_[i]];
+      }
+      piece_of_[i] = piece;
+      ++taken;
+    }
+    counts[piece] += taken;
+  }
+
+  float least(Index piece, Index claim) const {
+    const Vec3 centre(claims_[claim].x + 0.5, claims_[claim].y + 0.5, 1);
+    return static_cast<float>((to_node(piece) * centre).minCoeff());
   }
 
   const TexelMap& map_;
   const Overlay& overlay_;
-  const Index face_, begin_, end_;
+  const Index face_;
+  const TexelClaim* const claims_;
+  const Index count_;
+  Index* const piece_of_;  // per claim of the face
   int top_ = 0;
-  std::vector<Index> rows_;  // first claim of each row, from begin_
-  std::vector<Best> best_;
+  std::vector<Index> rows_;  // first claim of each row, and one beyond the last
+};
+
+// Where the samples of each piece go, and the offsets of all node faces. Pieces of one input face
+// in one node face share a place, so that their samples stay in the order of the texels.
+class Places {
+ public:
+  Places(const Overlay& overlay, const std::vector<Index>& counts, Index node_faces,
+         std::vector<Index>& face_offsets)
+      : first_(overlay.pieces.size()), next_(overlay.pieces.size(), 0) {
+    std::vector<Index> newest(node_faces, kNone);
+    face_offsets.assign(node_faces + 1, 0);
+    for (Index f = 0; f + 1 < overlay.face_offsets.size(); ++f) {
+      const Index begin = overlay.face_offsets[f];
+      for (Index p = begin; p < overlay.face_offsets[f + 1]; ++p) {
+        const Index node_face = overlay.pieces[p].node_face;
+        Index& known = newest[node_face];
+        if (known == kNone || known < begin) {
+          known = p;
+          next_[p] = face_offsets[node_face + 1];
+        }
+        first_[p] = known;
+        face_offsets[node_face + 1] += counts[p];
+      }
+    }
+    for (Index f = 0; f < node_faces; ++f) face_offsets[f + 1] += face_offsets[f];
+    for (Index p = 0; p < next_.size(); ++p) next_[p] += face_offsets[overlay.pieces[p].node_face];
+  }
+
+  // The place of the piece's next `count` samples.
+  Index advance(Index piece, Index count) { return (next_[first_[piece]] += count) - count; }
+
+ private:
+  std::vector<Index> first_;  // per piece: whose place it shares
+  std::vector<Index> next_;
+};
+
+// Makes the samples of one input face, in runs of claims of one row and piece.
+class RunSampler {
+ public:
+  RunSampler(const TexelMap& map, const Overlay& overlay, Index face)
+      : map_(map), overlay_(overlay), face_(face) {}
+
+  void run(const LargeArray<Index>& piece_of, Places& places, Sample* samples) const {
+    const Index end = map_.face_offsets[face_ + 1];
+    for (Index begin = map_.face_offsets[face_], beyond; begin < end; begin = beyond) {
+      const Index piece = piece_of[begin];
+      const auto row = map_.claims[begin].y;
+      beyond = begin + 1;
+      while (beyond < end && piece_of[beyond] == piece && map_.claims[beyond].y == row) ++beyond;
+      Sample* const out = samples + places.advance(piece, beyond - begin);
+      // Barycentric coordinates are linear: if both ends lie in the face, all claims do.
+      if (least(begin) >= 0 && least(beyond - 1) >= 0) {
+        sample_inside(begin, beyond, overlay_.pieces[piece].to_node, out);
+      } else {
+        sample_clamped(begin, beyond, overlay_.pieces[piece].to_node, out);
+      }
+    }
+  }
+
+ private:
+  // Barycentric coordinates in the input face, not clamped.
+  Vec3 barycentric(Index claim) const {
+    const TexelClaim& at = map_.claims[claim];
+    return map_.to_barycentric(face_) * Vec3(at.x + 0.5, at.y + 0.5, 1);
+  }
+  double least(Index claim) const { return barycentric(claim).minCoeff(); }
+
+  void sample_clamped(Index begin, Index end, const Eigen::Matrix3d& to_node, Sample* out) const {
+    for (Index i = begin; i < end; ++i) {
+      const Vec3 at = to_node * map_.barycentric(face_, map_.claims[i]);
+      *out++ = make_sample(map_.texel(map_.claims[i]), at, map_.texel_area[face_]);
+    }
+  }
+
+  void sample_inside(Index begin, Index end, const Eigen::Matrix3d& to_node, Sample* out) const {
+    const TexelClaim* const claims = map_.claims.data() + begin;
+    const Index count = end - begin;
+    const int left = claims[0].x;
+    const Vec3 start = to_node * barycentric(begin),
+               slope = to_node * map_.to_barycentric(face_).col(0);
+    const Index texel = map_.texel(claims[0]);
+    const auto area = static_cast<float>(map_.texel_area[face_]);
+    for (Index i = 0; i < count; ++i) {
+      const int columns = claims[i].x - left;
+      const double b0 = std::max(start[0] + slope[0] * columns, 0.0),
+                   b1 = std::max(start[1] + slope[1] * columns, 0.0),
+                   b2 = std::max(start[2] + slope[2] * columns, 0.0);
+      const double scale = 1 / (b0 + b1 + b2);
+      out[i] = {texel + static_cast<Index>(columns), static_cast<float>(b1 * scale),
+                static_cast<float>(b2 * scale), area};
+    }
+    if (left >= 0 && claims[count - 1].x < map_.width) return;
+    for (Index i = 0; i < count; ++i) out[i].texel = map_.texel(claims[i]);
+  }
+
+  const TexelMap& map_;
+  const Overlay& overlay_;
+  const Index face_;
 };
 
 }  // namespace
 
 Samples texel_samples(const TexelMap& map, const NodeSurface& surface) {
-  std::vector<Sample> located(map.claims.size());
-  std::vector<Index> face_of(map.claims.size());
+  const Overlay& overlay = surface.overlay;
   const auto faces = static_cast<Index>(map.face_offsets.size() - 1);
+  LargeArray<Index> piece_of(map.claims.size());
+  std::vector<Index> counts(overlay.pieces.size(), 0);
+  tbb::parallel_for(Index{0}, faces,
+                    [&](Index f) { PieceFinder(map, overlay, f, piece_of.data()).run(counts); });
+  Samples out;
+  Places places(overlay, counts, static_cast<Index>(surface.nodes.faces.size()), out.face_offsets);
+  out.samples.resize(map.claims.size());
   tbb::parallel_for(Index{0}, faces, [&](Index f) {
-    FaceLocator(map, surface.overlay, f)
-        .run(face_of.data() + map.face_offsets[f], located.data() + map.face_offsets[f]);
+    RunSampler(map, overlay, f).run(piece_of, places, out.samples.data());
   });
-  return sort_into_faces(std::move(located), face_of,
-                         static_cast<Index>(surface.nodes.faces.size()));
+  return out;
 }
 
 Samples point_samples(const TriangleMesh& mesh, const TexelMap& map, const NodeSurface& surface,

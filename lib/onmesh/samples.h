@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "onmesh/large_array.h"
 #include "onmesh/overlay.h"
 #include "onmesh/texel_map.h"
 
@@ -18,7 +19,7 @@ struct Sample {
 /// Samples of all node faces; those of face f are [face_offsets[f], face_offsets[f + 1]).
 struct Samples {
   std::vector<Index> face_offsets;
-  std::vector<Sample> samples;
+  LargeArray<Sample> samples;
 };
 
 /// Texel quadrature: every claim of the map is one sample, within a face in the order of input

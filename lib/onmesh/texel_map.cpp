@@ -1,10 +1,14 @@
 #include "onmesh/texel_map.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -169,6 +173,16 @@ Vec3 TexelMap::barycentric(Index face, const TexelClaim& claim) const {
 }
 
 std::vector<Index> TexelMap::overlapped() const {
+  // Each claim covers its texel: as many of both means one each.
+  const std::size_t covered = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, coverage.size(), 65536), std::size_t{0},
+      [&](const tbb::blocked_range<std::size_t>& part, std::size_t sum) {
+        const auto first = coverage.begin() + std::ptrdiff_t(part.begin());
+        return sum + std::size_t(
+                         std::count(first, first + std::ptrdiff_t(part.size()), Coverage::covered));
+      },
+      std::plus<>());
+  if (covered == claims.size()) return {};
   std::vector<std::uint8_t> count(coverage.size(), 0);
   for (const TexelClaim& claim : claims) {
     std::uint8_t& n = count[texel(claim)];

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "onmesh/large_array.h"
 #include "onmesh/triangle_mesh.h"
 
 namespace onmesh {
@@ -34,7 +35,7 @@ class TexelMap {
   int width = 0, height = 0;
   Wrap wrap = Wrap::repeat;
   std::vector<Index> face_offsets;  ///< faces + 1, into claims
-  std::vector<TexelClaim> claims;
+  LargeArray<TexelClaim> claims;
   std::vector<double>
       texel_area;  ///< per face: surface area of one whole texel; 0 = not rasterised
   std::vector<Coverage> coverage;    ///< width * height
