@@ -55,7 +55,7 @@ Row new_row(const Scene& scene, std::string_view backend) {
   row.mesh = scene.name;
   row.backend = backend;
   row.sigma_texels = scene.sigma_texels;
-  row.spacing = scene.setup.plan.node_spacing / scene.sigma();
+  row.spacing = scene.setup.plan.curved_spacing / scene.sigma();
   row.faces = scene.setup.mesh.faces.size();
   row.texels = scene.setup.plan.texels;
   row.nodes = scene.surface.nodes.nodes.size();
@@ -118,9 +118,11 @@ Values filter_values(const Scene& scene, FilterKind kind, const DistanceBackend&
   work.kernel = {weights.sigma, weights.radius, bilateral ? weights.sigma_range : 0};
   Values values(scene.tried.size());
   filter_patches(work,
-                 [&](Index target, const float* result) {
-                   const Index k = scene.tried_at[targets.samples[target].texel];
-                   if (k != kNone) values[k].assign(result, result + channels);
+                 [&](Index begin, Index end, const float* result) {
+                   for (Index target = begin; target < end; ++target, result += channels) {
+                     const Index k = scene.tried_at[targets.samples[target].texel];
+                     if (k != kNone) values[k].assign(result, result + channels);
+                   }
                  },
                  {});
   return values;

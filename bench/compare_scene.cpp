@@ -120,7 +120,7 @@ Scene make_scene(const Subject& subject, double sigma_texels, std::size_t texels
     scene.tried_at[scene.points.texels[centres[i]]] = Index(i);
 
   RefineOptions refine_options;
-  refine_options.spacing = scene.setup.plan.node_spacing;
+  refine_options.spacing = scene.setup.plan.curved_spacing;
   refine_options.finest = scene.setup.plan.finest_spacing;
   const double start = thread_seconds();
   scene.surface = refine(mesh, scene.setup.cleaning, refine_options);

@@ -159,8 +159,9 @@ TEST_CASE("cloud filters a book close to the definition", "[cloud][accuracy]") {
     Image result = texture;
     filter_patches(
         work,
-        [&](Index target, const float* values) {
-          std::copy_n(values, channels, result.texel(samples.samples[target].texel));
+        [&](Index begin, Index end, const float* values) {
+          for (Index target = begin; target < end; ++target, values += channels)
+            std::copy_n(values, channels, result.texel(samples.samples[target].texel));
         },
         [](double) {});
     const BruteForce error =

@@ -157,6 +157,7 @@ json plan_json(const FilterPlan& plan) {
           {"radius", plan.radius},
           {"texel_size", plan.texel_size},
           {"node_spacing", plan.node_spacing},
+          {"curved_node_spacing", plan.curved_spacing},
           {"finest_node_spacing", plan.finest_spacing},
           {"bridge", plan.bridge > 0 ? json(plan.bridge) : json()},
           {"sample_spacing", plan.sample_spacing > 0 ? json(plan.sample_spacing) : json()},
@@ -230,8 +231,12 @@ void print_plan(const FilterPlan& plan, const Image& texture, std::ostream& out)
       << "sigma         " << length_text(plan.sigma_spatial, plan.texel_size) << '\n'
       << "radius        " << length_text(plan.radius, plan.texel_size) << '\n'
       << "nodes         about " << format_count(plan.nodes) << ", "
-      << length_text(plan.node_spacing, plan.texel_size) << " apart, "
-      << length_text(plan.finest_spacing, plan.texel_size) << " where distances bend\n";
+      << length_text(plan.node_spacing, plan.texel_size) << " apart";
+  if (plan.curved_spacing < plan.node_spacing) {
+    out << ", " << length_text(plan.curved_spacing, plan.texel_size)
+        << " where the surface is curved";
+  }
+  out << ", " << length_text(plan.finest_spacing, plan.texel_size) << " where distances bend\n";
   if (plan.sample_spacing > 0) {
     out << "samples       about " << format_count(plan.samples) << ", "
         << length_text(plan.sample_spacing, plan.texel_size);

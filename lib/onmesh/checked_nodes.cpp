@@ -13,6 +13,8 @@ constexpr std::array kPalettes{16, 32, 64};
 /// such patches are within the default tolerance.
 constexpr double kMostResidual = 0.16;
 constexpr Index kPicked = 64;
+/// Area per node of a regular mesh with unit edges.
+constexpr double kEquilateral = 0.866;
 constexpr std::size_t kLeastSupported = 64;
 /// Support below which targets are summed directly at first, and at most.
 constexpr float kLittleSupport = 8, kMostSupport = 200;
@@ -237,18 +239,26 @@ bool CheckedNodes::run(const KernelInput& input, Kernel& kernel, std::vector<flo
   return true;
 }
 
+double CheckedNodes::subnode_spacing(const Size& size, const KernelOptions& options) {
+  // Nodes are as far apart as the sides of equilateral faces are long.
+  const double spacing = std::sqrt(size.area / (size.nodes * kEquilateral));
+  return NodeKernel::halves(spacing, options.sigma_spatial) ? spacing / 4 : spacing / 2;
+}
+
 double CheckedNodes::cost_of_nodes(const Size& size, const KernelOptions& options, int channels) {
-  // Measured by bench_kernel. Splitting a face 1 -> 4 makes four subnodes of a node.
+  // Measured by bench_kernel.
   const double planes = 1 + channels, colours = options.sigma_range > 0 ? kPalettes[0] : 1;
   const double disc = std::numbers::pi * options.radius * options.radius;
-  const double pairs = 4 * size.nodes * std::min(1.0, disc / size.area) * 4 * size.nodes;
+  const double spacing = subnode_spacing(size, options);
+  const double subnodes = size.area / (spacing * spacing * kEquilateral);
+  const double pairs = subnodes * std::min(1.0, disc / size.area) * subnodes;
   return pairs * (4 + 0.02 * planes * colours) +
          (size.samples + size.targets) * (25 + 0.3 * planes * colours);
 }
 
 double CheckedNodes::cost_of_sums(const Size& size, const KernelOptions& options) {
   const double disc = std::numbers::pi * options.radius * options.radius;
-  return 0.9 * size.targets * std::min(1.0, disc / size.area) * size.samples;
+  return 0.6 * size.targets * std::min(1.0, disc / size.area) * size.samples;
 }
 
 }  // namespace onmesh

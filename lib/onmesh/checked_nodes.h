@@ -45,6 +45,8 @@ class CheckedNodes {
   struct Size {
     double area = 0, nodes = 0, samples = 0, targets = 0;
   };
+  /// How far apart the node kernel's subnodes are on average.
+  static double subnode_spacing(const Size& size, const KernelOptions& options);
   static double cost_of_nodes(const Size& size, const KernelOptions& options, int channels);
   static double cost_of_sums(const Size& size, const KernelOptions& options);
 

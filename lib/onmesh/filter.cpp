@@ -137,13 +137,17 @@ class Results {
     return high > low ? double(high) - low : 1;
   }
 
-  void store(Index target, const float* values) {
-    const auto at = std::lower_bound(shared_.begin(), shared_.end(), target);
-    if (at != shared_.end() && *at == target) {
-      const auto first = std::size_t(at - shared_.begin()) * channels_.size();
-      std::copy_n(values, channels_.size(), shared_values_.begin() + std::ptrdiff_t(first));
-    } else {
-      write(targets_.samples[target].texel, values);
+  /// As StoreResults.
+  void store(Index begin, Index end, const float* values) {
+    auto shared = std::lower_bound(shared_.begin(), shared_.end(), begin);
+    for (Index target = begin; target < end; ++target, values += channels_.size()) {
+      if (shared != shared_.end() && *shared == target) {
+        const auto first = std::size_t(shared - shared_.begin()) * channels_.size();
+        std::copy_n(values, channels_.size(), shared_values_.begin() + std::ptrdiff_t(first));
+        ++shared;
+      } else {
+        write(targets_.samples[target].texel, values);
+      }
     }
   }
 
@@ -224,14 +228,12 @@ class Results {
     highest_ = std::move(all.highest);
   }
 
-  /// Rounding must not leave the samples' range; values that are not finite were kept as they are.
+  /// Rounding must not leave the samples' range; texels with a value that is not finite stay.
   void write(Index texel, const float* values) {
-    const float* const own = texture_.texel(texel);
-    if (std::any_of(channels_.begin(), channels_.end(),
-                    [own](int c) { return !std::isfinite(own[c]); })) {
-      return;
-    }
-    float* const out = image_.texel(texel);
+    float* const out = image_.texel(texel);  // as the texture has it
+    bool is_finite = true;
+    for (const int c : channels_) is_finite &= std::isfinite(out[c]);
+    if (!is_finite) return;
     for (std::size_t c = 0; c < channels_.size(); ++c) {
       out[channels_[c]] = std::clamp(values[c], lowest_[c], highest_[c]);
     }
@@ -349,7 +351,8 @@ Image run(const TriangleMesh& mesh, const Image& texture, const FilterOptions& o
     work.method = options.method;
     work.tolerance = options.tolerance * results.range();
     const PatchCounts counts = filter_patches(
-        work, [&](Index target, const float* values) { results.store(target, values); },
+        work,
+        [&](Index begin, Index end, const float* values) { results.store(begin, end, values); },
         [&](double done) { stages.advance(done); });
     results.merge_shared();
     report.patches = counts.patches;

@@ -47,7 +47,7 @@ struct FilterOptions {
 /// What a run will do, as far as it is known without running. Lengths in mesh units.
 struct FilterPlan {
   double sigma_spatial = 0, radius = 0;
-  double node_spacing = 0, finest_spacing = 0;
+  double node_spacing = 0, curved_spacing = 0, finest_spacing = 0;
   /// Poisson mode only: the least and the largest, which differ where they follow the texels.
   double sample_spacing = 0, largest_sample_spacing = 0;
   double texel_size = 0, diagonal = 0, surface_area = 0;

@@ -34,11 +34,8 @@ double target_weight(double targets, bool by_nodes, double targets_per_square_si
 /// Whether it is worth evaluating on nodes. Direct sums that take no time to speak of are better.
 bool choose_nodes(const PatchWork& work, const CheckedNodes::Size& size) {
   if (work.method != FilterMethod::automatic) return work.method == FilterMethod::nodes;
-  constexpr double kNoTime = 2e9;
-  // Subnodes half as far apart as nodes, which are as far as the sides of equilateral faces.
-  const double squared_spacing = size.area / (size.nodes * 0.866);
-  const double sigma = work.kernel.sigma_spatial;
-  if (squared_spacing > 4 * sigma * sigma) return false;
+  constexpr double kNoTime = 1e9;
+  if (CheckedNodes::subnode_spacing(size, work.kernel) > work.kernel.sigma_spatial) return false;
   const double sums = CheckedNodes::cost_of_sums(size, work.kernel);
   return sums > kNoTime &&
          CheckedNodes::cost_of_nodes(size, work.kernel, work.colours.channels) < 0.5 * sums;
@@ -46,8 +43,7 @@ bool choose_nodes(const PatchWork& work, const CheckedNodes::Size& size) {
 
 class PatchFilter {
  public:
-  PatchFilter(const PatchWork& work, bool by_nodes,
-              const std::function<void(Index, const float*)>& store)
+  PatchFilter(const PatchWork& work, bool by_nodes, const StoreResults& store)
       : work_(work),
         store_(store),
         longest_edge_(work.nodes->longest_edge()),
@@ -84,9 +80,8 @@ class PatchFilter {
     for (Index f = 0; f < patch.core_faces; ++f) {
       const Index begin = work_.targets->face_offsets[patch.faces[f]];
       const Index end = work_.targets->face_offsets[patch.faces[f] + 1];
-      for (Index target = begin; target < end; ++target, values += work_.colours.channels) {
-        store_(target, values);
-      }
+      store_(begin, end, values);
+      values += std::size_t(end - begin) * std::size_t(work_.colours.channels);
     }
     ++counts.patches;
     counts.pairs += kernel.pairs;
@@ -114,7 +109,7 @@ class PatchFilter {
   }
 
   const PatchWork& work_;
-  const std::function<void(Index, const float*)>& store_;
+  const StoreResults& store_;
   const double longest_edge_;
   const bool by_nodes_;
   Kernel kernel_;
@@ -136,8 +131,7 @@ void PatchCounts::add(const PatchCounts& other) {
   nodes.add(other.nodes);
 }
 
-PatchCounts filter_patches(const PatchWork& work,
-                           const std::function<void(Index, const float*)>& store,
+PatchCounts filter_patches(const PatchWork& work, const StoreResults& store,
                            const std::function<void(double)>& progress) {
   const NodeMesh& nodes = *work.nodes;
   std::vector<double> weights(nodes.faces.size());
@@ -192,7 +186,7 @@ double estimate_table_seconds(const PatchWork& work) {
   }
   if (face == kNone) return 0;
   PatchCounts counts;
-  const std::function<void(Index, const float*)> nothing = [](Index, const float*) {};
+  const StoreResults nothing = [](Index, Index, const float*) {};
   PatchFilter(work, false, nothing).run({face}, counts);
   // Nodes between patches are sources of each of them: about a third more.
   const auto sources = double(std::count(needed.begin(), needed.end(), true)) * 1.3;

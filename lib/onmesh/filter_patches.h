@@ -32,12 +32,14 @@ struct PatchCounts {
   void add(const PatchCounts& other);
 };
 
+/// Takes the results of the targets with these positions in PatchWork::targets->samples: as many
+/// values as there are channels for each.
+using StoreResults = std::function<void(Index begin, Index end, const float* values)>;
+
 /// Filter all targets. How they are grouped into patches does not depend on the number of threads.
-/// \param store called for every target with its position in targets->samples and its values, from
-///   any thread; every target once
+/// \param store called from any thread; every target once
 /// \param progress called with the share that is done, never twice at once
-PatchCounts filter_patches(const PatchWork& work,
-                           const std::function<void(Index target, const float* values)>& store,
+PatchCounts filter_patches(const PatchWork& work, const StoreResults& store,
                            const std::function<void(double)>& progress);
 
 /// CPU seconds that `work` will need for its distances, from timing one small patch.

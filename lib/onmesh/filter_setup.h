@@ -26,20 +26,21 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
 /// Nodes as the plan wants them, where texels are and as far around as paths between them lead.
 RefineOptions refinement_for(const FilterSetup& setup);
 
-/// Node spacing on smooth surface and at cones, creases and corners, in mesh units.
+/// Node spacing on flat and on curved surface, and at cones, creases and corners, in mesh units.
 struct NodeSpacing {
-  double smooth = 0, finest = 0;
+  double flat = 0, curved = 0, finest = 0;
 };
 
-/// The spacing rule: 1.5 sigma where the surface is smooth (interpolation is exact on flat and
-/// folded surface, and its error falls with the square of the spacing over the radius of
-/// curvature), a quarter of sigma where distances bend, but with enough texels per node face to
-/// keep the kernel busy and tables small: 10 texels where the surface is smooth.
-/// \param depends_on_spacing where the surface is smooth, sigma: distances are only as good as the
+/// The spacing rule: 1.5 sigma where the surface is curved, up to twice that where it is nearly
+/// flat, a quarter of sigma where distances bend; but with enough texels per node face to keep the
+/// kernel busy and tables small: 10 texels where the surface is curved. Interpolation is exact on
+/// flat and folded surface; on curved surface squared distances d^2 are off by about
+/// h^2 d^2 |K| / 18 at spacing h.
+/// \param depends_on_spacing sigma where the surface is smooth: distances are only as good as the
 ///   nodes are close (heat, cloud, bridges), or the result is the distances' alone (Gaussian
 ///   filter)
 /// \param by_nodes the sums will be done on the nodes, which therefore follow sigma down to 4
-/// texels
+///   texels
 NodeSpacing node_spacing_for(double sigma, double texel_size, bool depends_on_spacing,
                              bool by_nodes);
 

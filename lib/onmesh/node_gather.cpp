@@ -26,21 +26,25 @@ void find_used(const Subnodes& subnodes, const BlurWeights& blur,
   }
 }
 
-/// Whether the blur reads a corner of the face.
-bool is_used(const Patch& patch, const NodeWork& work, Index f) {
-  const auto& n = patch.corners[f];
-  return (work.used[n[0]] | work.used[n[1]] | work.used[n[2]]) != 0;
+/// Whether the blur reads a corner of the face, or of its parts if the patch is halved.
+bool is_used(const NodeKernelState& state, Index f) {
+  const auto reads = [&](const std::array<Index, 3>& n) {
+    return (state.work.used[n[0]] | state.work.used[n[1]] | state.work.used[n[2]]) != 0;
+  };
+  if (!state.is_halved) return reads(state.input.patch->corners[f]);
+  const auto* const parts = &state.halved.patch.corners[std::size_t(4) * f];
+  return std::any_of(parts, parts + 4, reads);
 }
 
 /// About kSurveyed samples, spread evenly over the faces that are used.
-std::vector<const Sample*> choose_some(const KernelInput& input, const NodeWork& work) {
-  const Patch& patch = *input.patch;
-  const Samples& sources = *input.sources;
+std::vector<const Sample*> choose_some(const NodeKernelState& state) {
+  const Patch& patch = *state.input.patch;
+  const Samples& sources = *state.input.sources;
   std::vector<std::pair<const Sample*, std::size_t>> faces;  // first sample and number
   faces.reserve(patch.faces.size());
   std::size_t total = 0;
   for (Index f = 0; f < patch.faces.size(); ++f) {
-    if (!is_used(patch, work, f)) continue;
+    if (!is_used(state, f)) continue;
     const Index begin = sources.face_offsets[patch.faces[f]];
     const std::size_t count = sources.face_offsets[patch.faces[f] + 1] - begin;
     faces.emplace_back(sources.samples.data() + begin, count);
@@ -59,25 +63,37 @@ std::vector<const Sample*> choose_some(const KernelInput& input, const NodeWork&
 
 }  // namespace
 
-FacePart part_of(const Patch& patch, const Subnodes& subnodes, Index local_face, int quarter) {
+FacePart quarter_of(const FacePart& part, int quarter) {
+  const float scale = quarter < 3 ? 2.0F : -2.0F;
+  FacePart result;
+  result.scale = scale * part.scale;
+  for (int i = 0; i < 3; ++i) {
+    const float own = quarter == 3 ? 1.0F : quarter == i ? -1.0F : 0.0F;
+    result.offset[i] = scale * part.offset[i] + own;
+  }
+  return result;
+}
+
+std::array<Index, 3> corners_of(const Patch& patch, const Subnodes& subnodes, Index local_face,
+                                int quarter) {
   const std::array<Index, 3>& corners = patch.corners[local_face];
   const std::array<Index, 3>& middle = subnodes.middle[local_face];
-  if (subnodes.is_split[local_face] == 0) return {corners, 1, {0, 0, 0}};
+  if (subnodes.is_split[local_face] == 0) return corners;
   switch (quarter) {
     case 0:
-      return {{corners[0], middle[0], middle[2]}, 2, {-1, 0, 0}};
+      return {corners[0], middle[0], middle[2]};
     case 1:
-      return {{middle[0], corners[1], middle[1]}, 2, {0, -1, 0}};
+      return {middle[0], corners[1], middle[1]};
     case 2:
-      return {{middle[2], middle[1], corners[2]}, 2, {0, 0, -1}};
-    default:  // opposite the corners
-      return {{middle[1], middle[2], middle[0]}, -2, {1, 1, 1}};
+      return {middle[2], middle[1], corners[2]};
+    default:
+      return {middle[1], middle[2], middle[0]};
   }
 }
 
-void survey(const KernelInput& input, const Subnodes& subnodes, const BlurWeights& blur,
-            const KernelOptions& options, NodeWork& work) {
-  const Colours& colours = input.colours;
+void survey(const KernelOptions& options, NodeKernelState& state) {
+  NodeWork& work = state.work;
+  const Colours& colours = state.input.colours;
   work.channels = colours.channels;
   work.range_channels = 0;
   work.colour_scale = 1;
@@ -85,7 +101,7 @@ void survey(const KernelInput& input, const Subnodes& subnodes, const BlurWeight
     work.range_channels = colours.range_channels;
     work.colour_scale = float(std::sqrt(0.5 * std::numbers::log2e) / options.sigma_range);
   }
-  find_used(subnodes, blur, work.used);
+  find_used(state.subnodes, state.blur, work.used);
 
   float largest = 0;
   double count = 0;
@@ -94,7 +110,7 @@ void survey(const KernelInput& input, const Subnodes& subnodes, const BlurWeight
   const auto colour_of = [&](const Sample& s) {
     return colours.values + std::size_t(s.texel) * std::size_t(colours.stride);
   };
-  const std::vector<const Sample*> some = choose_some(input, work);
+  const std::vector<const Sample*> some = choose_some(state);
   // They are all over memory; none should be waited for by itself.
   for (const Sample* s : some) hwy::Prefetch(s);
   for (const Sample* s : some) hwy::Prefetch(colour_of(*s));

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "onmesh/halved_patch.h"
 #include "onmesh/kernel.h"
 #include "onmesh/palette.h"
 #include "onmesh/subnodes.h"
@@ -23,18 +24,22 @@ struct NodeWork {
   std::size_t planes() const { return 1 + std::size_t(channels); }
 };
 
-/// A split face or, if it is not split, a whole one. Its barycentric coordinates are scale * b[i] +
-/// offset[i], b being those in the whole face.
+/// A face of the patch or a part of it. Its barycentric coordinates are scale * b[i] + offset[i], b
+/// being those in the patch's face.
 struct FacePart {
-  std::array<Index, 3> corners;  ///< subnodes, real or not
-  float scale;
-  std::array<float, 3> offset;
+  std::array<Index, 3> corners{};  ///< subnodes, real or not
+  float scale = 1;
+  std::array<float, 3> offset{0, 0, 0};
 };
 
 /// A loaded patch, and sums per subnode: for each plane (weights, then channels) one value per
 /// palette colour; for the Gaussian filter the planes themselves, padded.
 struct NodeKernelState {
   KernelInput input;
+  bool is_halved = false;  ///< subnodes are those of the halved patch
+  HalvedPatch halved;
+  const Patch& patch() const { return is_halved ? halved.patch : *input.patch; }
+  const DistanceTable& table() const { return is_halved ? halved.table : *input.table; }
   Subnodes subnodes;
   BlurWeights blur;
   NodeWork work;
@@ -43,11 +48,15 @@ struct NodeKernelState {
   std::vector<float> splatted, blurred;
 };
 
-/// \param quarter 0, 1, 2: at the corners; 3: in the middle. Not used if the face is not split
-FacePart part_of(const Patch& patch, const Subnodes& subnodes, Index local_face, int quarter);
+/// A quarter of a part, without its corners. \param quarter 0, 1, 2: at the corners; 3: in the
+/// middle, its corners opposite the part's
+FacePart quarter_of(const FacePart& part, int quarter);
+
+/// The corners of a quarter of a split face; of the face if it is not split, whatever the quarter.
+std::array<Index, 3> corners_of(const Patch& patch, const Subnodes& subnodes, Index local_face,
+                                int quarter);
 
 /// Look at some of the samples that the blur needs, enough for scales and palettes.
-void survey(const KernelInput& input, const Subnodes& subnodes, const BlurWeights& blur,
-            const KernelOptions& options, NodeWork& work);
+void survey(const KernelOptions& options, NodeKernelState& state);
 
 }  // namespace onmesh

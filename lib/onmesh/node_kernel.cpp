@@ -36,7 +36,7 @@ constexpr std::size_t kGroup = 4;
 
 /// Buffers for one chunk of samples.
 struct Scratch {
-  Quarters quarters;
+  Quarters halves, quarters;
   Chunk chunk;
   std::vector<Chunk::Array> planes;  ///< per plane and corner: what a sample adds there
   /// Of samples to the palette's colours: lanes are colours for splatting, samples for slicing.
@@ -66,37 +66,70 @@ void for_plane_groups(std::size_t planes, const Call& call) {
   if (p < planes) call(p, std::integral_constant<std::size_t, 1>());
 }
 
-/// Call for every chunk of the samples of a face with the part of the face that it is in.
+/// Call for every chunk of some samples of a face, all in one part of it.
+template <typename Call>
+void for_chunks_of_part(const NodeKernelState& s, const FacePart& part, const Sample* samples,
+                        const Index* numbers, std::size_t count, Scratch& scratch,
+                        const Call& call) {
+  while (count > 0) {
+    const std::size_t size = std::min(count, Chunk::kSize);
+    scratch.chunk.load(s.work, s.input.colours, part, samples, numbers, size);
+    call(part, samples, numbers);
+    numbers += size;
+    count -= size;
+  }
+}
+
+/// Call for every chunk of the samples of a patch face with the part of the face that it is in.
 template <typename IsWanted, typename Call>
 void for_chunks(const NodeKernelState& s, const Samples& samples, Index local_face,
                 Scratch& scratch, const IsWanted& is_wanted, const Call& call) {
   const Index f = s.input.patch->faces[local_face];
-  const Index begin = samples.face_offsets[f], end = samples.face_offsets[f + 1];
-  if (begin == end) return;
-  const bool is_split = s.subnodes.is_split[local_face] != 0;
-  const int parts = is_split ? 4 : 1;
-  std::array<FacePart, 4> part;
-  std::array<bool, 4> wanted{};
-  for (int q = 0; q < parts; ++q) {
-    part[q] = part_of(*s.input.patch, s.subnodes, local_face, q);
-    wanted[q] = is_wanted(part[q].corners);
+  const Index begin = samples.face_offsets[f], count = samples.face_offsets[f + 1] - begin;
+  if (count == 0) return;
+  // The faces that subnodes know: this one or its four halves, of which each may be split.
+  const Patch& patch = s.patch();
+  const Index halves = s.is_halved ? 4 : 1, first_half = halves * local_face;
+  const auto parts = [&](Index half) { return s.subnodes.is_split[half] != 0 ? 4 : 1; };
+  std::array<std::array<Index, 3>, 16> corners;
+  std::array<bool, 16> wanted{};
+  for (Index h = 0; h < halves; ++h) {
+    for (int q = 0; q < parts(first_half + h); ++q) {
+      corners[4 * h + q] = corners_of(patch, s.subnodes, first_half + h, q);
+      wanted[4 * h + q] = is_wanted(corners[4 * h + q]);
+    }
   }
   if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) return;
   const Sample* const first = samples.samples.data() + begin;
   // Colours are all over the texture; none should be waited for by itself.
   const Colours& texels = s.input.colours;
-  for (const Sample* sample = first; sample != first + (end - begin); ++sample)
+  for (const Sample* sample = first; sample != first + count; ++sample)
     hwy::Prefetch(texels.values + std::size_t(sample->texel) * std::size_t(texels.stride));
-  scratch.quarters.sort(first, end - begin, is_split);
-  for (int q = 0; q < parts; ++q) {
-    if (!wanted[q]) continue;
-    const Index* numbers = scratch.quarters.numbers(q);
-    for (std::size_t left = scratch.quarters.count(q); left > 0;) {
-      const std::size_t count = std::min(left, Chunk::kSize);
-      scratch.chunk.load(s.work, s.input.colours, part[q], first, numbers, count);
-      call(part[q], first, numbers);
-      numbers += count;
-      left -= count;
+  const FacePart whole;
+  Quarters& quarters = scratch.quarters;
+  if (s.is_halved) {
+    scratch.halves.sort_face(first, count, true);
+  } else {
+    quarters.sort_face(first, count, parts(first_half) > 1);
+  }
+  for (Index h = 0; h < halves; ++h) {
+    FacePart half = s.is_halved ? quarter_of(whole, int(h)) : whole;
+    const bool is_split = parts(first_half + h) > 1;
+    if (s.is_halved && !is_split) {
+      if (!wanted[4 * h]) continue;
+      half.corners = corners[4 * h];
+      for_chunks_of_part(s, half, first, scratch.halves.numbers(int(h)),
+                         scratch.halves.count(int(h)), scratch, call);
+      continue;
+    }
+    if (s.is_halved) {
+      quarters.sort_part(first, half, scratch.halves.numbers(int(h)), scratch.halves.count(int(h)));
+    }
+    for (int q = 0; q < parts(first_half + h); ++q) {
+      if (!wanted[4 * h + Index(q)]) continue;
+      FacePart part = is_split ? quarter_of(half, q) : half;
+      part.corners = corners[4 * h + Index(q)];
+      for_chunks_of_part(s, part, first, quarters.numbers(q), quarters.count(q), scratch, call);
     }
   }
 }
@@ -409,6 +442,17 @@ HWY_EXPORT(evaluate);
 
 namespace {
 
+/// In sigmas: edges longer than kSplit are split; patches whose edges are longer than kHalved on
+/// average are halved before. Subnodes so far apart are as good as the node table itself.
+constexpr double kSplit = 0.5, kHalved = 2;
+
+double mean_core_edge(const Patch& patch) {
+  double sum = 0;
+  for (Index f = 0; f < patch.core_faces; ++f)
+    sum += patch.lengths[f][0] + patch.lengths[f][1] + patch.lengths[f][2];
+  return sum / (3 * std::max<Index>(patch.core_faces, 1));
+}
+
 /// Targets of the patch's core.
 Index count_targets(const KernelInput& input) {
   Index count = 0;
@@ -426,22 +470,25 @@ NodeKernel::NodeKernel(const KernelOptions& options)
 NodeKernel::~NodeKernel() = default;
 NodeKernel::NodeKernel(NodeKernel&&) noexcept = default;
 
+bool NodeKernel::halves(double edge, double sigma) { return edge > kHalved * sigma; }
+
 bool NodeKernel::load(const KernelInput& input) {
   NodeKernelState& s = *state_;
   const double sigma = options_.sigma_spatial;
-  // Subnodes half of sigma apart are as good as the node table itself.
-  s.subnodes = make_subnodes(*input.patch, 0.5 * sigma);
+  s.input = input;
+  s.is_halved = input.patch->bridge_faces == 0 && halves(mean_core_edge(*input.patch), sigma);
+  if (s.is_halved) halve(*input.patch, *input.table, s.halved);
+  s.subnodes = make_subnodes(s.patch(), kSplit * sigma);
   // Interpolation must not blur as much as the filter.
   for (const float v : s.subnodes.variance)
     if (v > 0.5 * sigma * sigma) return false;
-  s.blur = make_blur(*input.patch, *input.table, s.subnodes, sigma, options_.radius);
+  s.blur = make_blur(s.patch(), s.table(), s.subnodes, sigma, options_.radius);
   // Padded, so that vectors of any size fit.
   const std::size_t entries = s.blur.subnodes.size();
   s.blur.exponents.resize((entries + Palette::kLanes - 1) / Palette::kLanes * Palette::kLanes);
   HWY_DYNAMIC_DISPATCH(raise)(s.blur.exponents);
-  survey(input, s.subnodes, s.blur, options_, s.work);
+  survey(options_, s);
   s.palette = {};
-  s.input = input;
   return true;
 }
 

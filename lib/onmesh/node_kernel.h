@@ -42,6 +42,10 @@ class NodeKernel {
   /// \return the palette's colours; 0 for the Gaussian filter
   int evaluate(std::vector<float>& out, std::vector<float>& support);
 
+  /// Whether patches with edges of this mean length are halved before they are split: subnodes are
+  /// a quarter of an edge apart then, else half of it.
+  static bool halves(double edge, double sigma);
+
  private:
   KernelOptions options_;
   std::unique_ptr<NodeKernelState> state_;

@@ -28,39 +28,71 @@ using V = hn::Vec<D>;
 /// Scaled colours beyond this would overflow when squared and summed, as is_usable() has it.
 constexpr float kLargestColour = 1e15F;
 
-/// The numbers of a face's samples, from 0, by the quarter of the face that holds them.
+/// The numbers of a face's samples, from 0, by the quarter that holds them of a part of the face.
 class Quarters {
  public:
-  void sort(const Sample* samples, std::size_t count, bool is_split) {
-    for (std::vector<Index>& list : numbers_)
-      if (list.size() < count + Palette::kLanes) list.resize(2 * (count + Palette::kLanes));
-    counts_ = {};
+  /// All `count` samples of a face. \pre is_split, or the numbers are wanted as quarter 0
+  void sort_face(const Sample* samples, std::size_t count, bool is_split) {
+    prepare(count);
     const D d;
     const hn::RebindToUnsigned<D> du;
-    const std::size_t lanes = hn::Lanes(d);
-    for (std::size_t first = 0; first < count; first += lanes) {
+    for (std::size_t first = 0; first < count; first += hn::Lanes(d)) {
+      const std::size_t there = std::min(hn::Lanes(d), count - first);
       const auto number = hn::Iota(du, Index(first));
-      const auto there = hn::FirstN(d, count - first);
       if (!is_split) {
-        put(0, number, there);
+        put(0, number, hn::FirstN(d, there));
         continue;
       }
       V b1, b2;
-      load(samples + first, std::min(lanes, count - first), b1, b2);
-      const V half = hn::Set(d, 0.5F);
-      const auto at1 = hn::Ge(b1, half), at2 = hn::AndNot(at1, hn::Ge(b2, half));
-      const auto not0 = hn::Gt(hn::Add(b1, b2), half);
-      put(0, number, hn::AndNot(not0, there));
-      put(1, number, hn::And(hn::And(at1, not0), there));
-      put(2, number, hn::And(hn::And(at2, not0), there));
-      put(3, number, hn::AndNot(hn::Or(at1, at2), hn::And(not0, there)));
+      load(samples + first, there, b1, b2);
+      put_by_quarter(number, b1, b2, there);
+    }
+  }
+
+  /// The samples of a part of a face. \param numbers `count` of them, padded by a vector
+  void sort_part(const Sample* samples, const FacePart& part, const Index* numbers,
+                 std::size_t count) {
+    prepare(count);
+    const D d;
+    const hn::RebindToUnsigned<D> du;
+    std::array<Sample, Palette::kLanes> some{};
+    for (std::size_t first = 0; first < count; first += hn::Lanes(d)) {
+      const std::size_t there = std::min(hn::Lanes(d), count - first);
+      for (std::size_t i = 0; i < there; ++i) some[i] = samples[numbers[first + i]];
+      V b1, b2;
+      load(some.data(), hn::Lanes(d), b1, b2);
+      const V scale = hn::Set(d, part.scale);
+      put_by_quarter(hn::LoadU(du, numbers + first),
+                     hn::MulAdd(b1, scale, hn::Set(d, part.offset[1])),
+                     hn::MulAdd(b2, scale, hn::Set(d, part.offset[2])), there);
     }
   }
 
   std::size_t count(int quarter) const { return counts_[std::size_t(quarter)]; }
+  /// Padded by a vector.
   const Index* numbers(int quarter) const { return numbers_[std::size_t(quarter)].data(); }
 
  private:
+  void prepare(std::size_t count) {
+    for (std::vector<Index>& list : numbers_)
+      if (list.size() < count + Palette::kLanes) list.resize(2 * (count + Palette::kLanes));
+    counts_ = {};
+  }
+
+  /// b1, b2: barycentric coordinates in what is quartered; of the first `count` lanes.
+  template <typename N>
+  void put_by_quarter(N number, V b1, V b2, std::size_t count) {
+    const D d;
+    const V half = hn::Set(d, 0.5F);
+    const auto there = hn::FirstN(d, count);
+    const auto at1 = hn::Ge(b1, half), at2 = hn::AndNot(at1, hn::Ge(b2, half));
+    const auto not0 = hn::Gt(hn::Add(b1, b2), half);
+    put(0, number, hn::AndNot(not0, there));
+    put(1, number, hn::And(hn::And(at1, not0), there));
+    put(2, number, hn::And(hn::And(at2, not0), there));
+    put(3, number, hn::AndNot(hn::Or(at1, at2), hn::And(not0, there)));
+  }
+
   static void load(const Sample* samples, std::size_t count, V& b1, V& b2) {
     static_assert(sizeof(Sample) == 4 * sizeof(float));
     const D d;

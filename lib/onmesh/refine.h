@@ -9,11 +9,18 @@
 namespace onmesh {
 
 struct RefineOptions {
-  double spacing = 0;  ///< node spacing where the surface is smooth, mesh units, > 0
-  double finest =
-      0;  ///< spacing at cones, creases and reflex corners, (0, spacing]; 0 = spacing / 4
+  double spacing = 0;  ///< largest node spacing, mesh units, > 0
+  /// Spacing where the surface is curved, (0, spacing]; 0 = spacing. With Gaussian curvature K it
+  /// is between the two: sqrt(flatness / |K|).
+  double curved = 0;
+  double flatness = 0;  ///< see curved; >= 0
+  /// Curvature counts as spread over at least this area, in square mesh units.
+  double spread = 0;
+  /// Spacing at cones, creases and reflex corners, (0, spacing]; 0 = a quarter of that where the
+  /// surface is curved
+  double finest = 0;
   double sharpness =
-      3;  ///< a vertex where distances bend by b radians: spacing / (1 + sharpness b)
+      3;  ///< a vertex where distances bend by b radians: 1 / (1 + sharpness b) of the above
   double growth = 0.25;  ///< how fast the spacing grows away from them, per unit of distance
   double min_angle_degrees = 25;  ///< Delaunay refinement's angle bound, [0, 30]
   /// Refine by bisection, so that node faces are flat in space: bridges, whose lengths are

@@ -72,7 +72,7 @@ struct Link {
 
 /// What is known of a vertex from its edges and faces alone.
 struct Around {
-  double angle = 0;
+  double angle = 0, area = 0;   ///< area: a third of the faces'
   Index faces = 0, border = 0;  ///< edges with one face
   bool branches = false;
 };
@@ -87,6 +87,7 @@ std::vector<double> wanted_spacing(const TriangleMesh& mesh, const EdgeTable& ed
     for (std::size_t k = 0; k < 3; ++k) {
       Around& at = around[mesh.faces[f][k]];
       at.angle += corner_angle(mesh, f, k);
+      at.area += mesh.face_area(f) / 3;
       ++at.faces;
     }
   }
@@ -118,7 +119,8 @@ std::vector<double> wanted_spacing(const TriangleMesh& mesh, const EdgeTable& ed
     }
   }
 
-  const double finest = options.finest > 0 ? options.finest : options.spacing / 4;
+  const double curved = options.curved > 0 ? options.curved : options.spacing;
+  const double finest = options.finest > 0 ? options.finest : curved / 4;
   std::vector<double> spacing(vertices, options.spacing);
   using Reached = std::pair<double, Index>;
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> front;
@@ -129,7 +131,12 @@ std::vector<double> wanted_spacing(const TriangleMesh& mesh, const EdgeTable& ed
     if (link_of[v] != kNone) {
       bend = around[v].faces > kLargestLink ? kSharpestBend : links[link_of[v]].bend();
     }
-    spacing[v] = std::max(finest, options.spacing / (1 + options.sharpness * bend));
+    // |K| is the angle that is missing or too much, per area (Gauss-Bonnet).
+    const double by_curvature =
+        std::sqrt(options.flatness * std::max(around[v].area, options.spread) / bend);
+    const double smooth =
+        bend > 0 ? std::clamp(by_curvature, curved, options.spacing) : options.spacing;
+    spacing[v] = std::max(finest, smooth / (1 + options.sharpness * bend));
     if (spacing[v] < options.spacing) front.emplace(spacing[v], v);
   }
   if (front.empty()) return spacing;

@@ -9,7 +9,7 @@
 namespace onmesh {
 
 /// The wanted spacing per vertex, mesh units: options.spacing where the surface is flat, less where
-/// distances bend, growing away from there along the mesh's edges.
+/// it is curved and where distances bend, growing away from there along the mesh's edges.
 std::vector<double> wanted_spacing(const TriangleMesh& mesh, const EdgeTable& edges,
                                    const RefineOptions& options);
 
