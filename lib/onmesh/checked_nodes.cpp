@@ -16,8 +16,10 @@ constexpr Index kPicked = 64;
 /// Area per node of a regular mesh with unit edges.
 constexpr double kEquilateral = 0.866;
 constexpr std::size_t kLeastSupported = 64;
-/// Support below which targets are summed directly at first, and at most.
-constexpr float kLittleSupport = 8, kMostSupport = 200;
+/// Support below which targets are summed directly at first.
+constexpr float kLittleSupport = 8;
+/// Share of the patch's largest support below which targets may be doubted.
+constexpr float kDoubtful = 0.5F;
 /// Where more than one in so many targets has little support the nodes may be given up.
 constexpr std::size_t kMostUncertain = 16;
 /// An error of an uncertain target that asks for more direct sums, in tolerances.
@@ -109,7 +111,7 @@ void CheckedNodes::pick(const KernelInput& input) {
 void CheckedNodes::find_doubtful(float little) {
   doubtful_.clear();
   for (Index k = 0; k < support_.size(); ++k)
-    if (support_[k] < kMostSupport) doubtful_.push_back(k);
+    if (support_[k] < most_doubtful_) doubtful_.push_back(k);
   const auto beyond = std::partition(doubtful_.begin(), doubtful_.end(),
                                      [&](Index k) { return support_[k] < little; });
   little_supported_ = std::size_t(beyond - doubtful_.begin());
@@ -177,7 +179,7 @@ double CheckedNodes::measure(const KernelInput& input, NodeCheck& check) const {
 void CheckedNodes::settle_uncertain(const KernelInput& input, Kernel& kernel, KernelCounts& counts,
                                     NodeCheck& check) {
   const auto channels = std::size_t(input.colours.channels);
-  for (float little = kLittleSupport; little <= kMostSupport; little *= 4) {
+  for (float little = kLittleSupport; little <= most_doubtful_; little *= 4) {
     find_doubtful(little);
     const KernelCounts more = sum_directly(input, kernel, doubtful_);
     counts.pairs += more.pairs;
@@ -200,6 +202,9 @@ void CheckedNodes::settle_uncertain(const KernelInput& input, Kernel& kernel, Ke
 
 KernelCounts CheckedNodes::sum_first(const KernelInput& input, Kernel& kernel, NodeCheck& check) {
   pick(input);
+  most_doubtful_ = kLittleSupport;
+  for (const float support : support_)
+    most_doubtful_ = std::max(most_doubtful_, kDoubtful * support);
   is_summed_.assign(support_.size(), 0);
   std::vector<Index> first = picked_;
   // One pass over the samples serves both checks, unless so much is uncertain that the nodes may

@@ -74,6 +74,7 @@ class CheckedNodes {
   std::vector<Index> picked_;     ///< at random
   std::vector<Index> doubtful_;   ///< the first little_supported_ are to be summed directly
   std::size_t little_supported_ = 0;
+  float most_doubtful_ = 0;  ///< support of the others is less
 };
 
 }  // namespace onmesh

@@ -26,7 +26,7 @@ double thread_seconds() {
 /// each of them. But all threads need patches to the end, and tables should stay in the cache. By
 /// nodes the halo costs as much as the core, which should be large beside sigma.
 double target_weight(double targets, bool by_nodes, double targets_per_square_sigma) {
-  if (!by_nodes) return std::clamp(targets / 128, 2048.0, 32768.0);
+  if (!by_nodes) return std::clamp(targets / 128, 2048.0, 65536.0);
   return std::min(std::max(512 * targets_per_square_sigma, 8192.0),
                   std::clamp(targets / 48, 2048.0, 524288.0));
 }

@@ -476,12 +476,20 @@ bool NodeKernel::load(const KernelInput& input) {
   NodeKernelState& s = *state_;
   const double sigma = options_.sigma_spatial;
   s.input = input;
-  s.is_halved = input.patch->bridge_faces == 0 && halves(mean_core_edge(*input.patch), sigma);
-  if (s.is_halved) halve(*input.patch, *input.table, s.halved);
-  s.subnodes = make_subnodes(s.patch(), kSplit * sigma);
+  s.is_halved = halves(mean_core_edge(*input.patch), sigma);
+  if (!s.is_halved) s.subnodes = make_subnodes(*input.patch, kSplit * sigma);
   // Interpolation must not blur as much as the filter.
-  for (const float v : s.subnodes.variance)
-    if (v > 0.5 * sigma * sigma) return false;
+  const auto is_too_coarse = [&] {
+    return std::any_of(s.subnodes.variance.begin(), s.subnodes.variance.end(),
+                       [sigma](float v) { return v > 0.5 * sigma * sigma; });
+  };
+  if (s.is_halved || is_too_coarse()) {
+    if (input.patch->bridge_faces > 0) return false;
+    s.is_halved = true;
+    halve(*input.patch, *input.table, s.halved);
+    s.subnodes = make_subnodes(s.halved.patch, kSplit * sigma);
+    if (is_too_coarse()) return false;
+  }
   s.blur = make_blur(s.patch(), s.table(), s.subnodes, sigma, options_.radius);
   // Padded, so that vectors of any size fit.
   const std::size_t entries = s.blur.subnodes.size();

@@ -43,7 +43,8 @@ class NodeKernel {
   int evaluate(std::vector<float>& out, std::vector<float>& support);
 
   /// Whether patches with edges of this mean length are halved before they are split: subnodes are
-  /// a quarter of an edge apart then, else half of it.
+  /// a quarter of an edge apart then, else half of it. (Others may be, too, if they have some edges
+  /// that are much longer.)
   static bool halves(double edge, double sigma);
 
  private:
