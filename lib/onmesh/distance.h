@@ -39,8 +39,11 @@ class DistanceBackend {
   /// given the patch's longest edge.
   virtual double margin(double reach, double longest_edge) const = 0;
   /// Squared distances from every core node to every patch node. Entries up to `reach` are right,
-  /// entries beyond may be kUnreachable.
+  /// entries beyond may be kUnreachable. If the patch has extents, entries up to `reach` and both
+  /// nodes' extents are right.
   virtual void fill(const Patch& patch, double reach, DistanceTable& table) const = 0;
+  /// Whether patches may have extents.
+  virtual bool knows_extents() const { return false; }
   /// Nodes of the whole mesh that no distance leads to because this back end cannot place them on a
   /// surface.
   virtual Index skipped_nodes() const { return 0; }

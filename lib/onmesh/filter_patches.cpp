@@ -31,6 +31,12 @@ double target_weight(double targets, bool by_nodes, double targets_per_square_si
                   std::clamp(targets / 48, 2048.0, 524288.0));
 }
 
+/// For the back ends that know of them.
+std::vector<double> extents_for(const PatchWork& work) {
+  if (!work.backend->knows_extents() || work.nodes->bridge_faces > 0) return {};
+  return edge_extents(*work.nodes);
+}
+
 /// Whether it is worth evaluating on nodes. Direct sums that take no time to speak of are better.
 bool choose_nodes(const PatchWork& work, const CheckedNodes::Size& size) {
   if (work.method != FilterMethod::automatic) return work.method == FilterMethod::nodes;
@@ -43,9 +49,12 @@ bool choose_nodes(const PatchWork& work, const CheckedNodes::Size& size) {
 
 class PatchFilter {
  public:
-  PatchFilter(const PatchWork& work, bool by_nodes, const StoreResults& store)
+  /// \param extents see edge_extents(); empty if the back end does not know of them
+  PatchFilter(const PatchWork& work, bool by_nodes, const std::vector<double>& extents,
+              const StoreResults& store)
       : work_(work),
         store_(store),
+        extents_(extents),
         longest_edge_(work.nodes->longest_edge()),
         by_nodes_(by_nodes),
         kernel_(work.kernel),
@@ -95,13 +104,18 @@ class PatchFilter {
   /// A pair within the radius lies in faces whose corners are at most two edges farther apart. How
   /// long these edges are is known only once the patch is there: try a little more than the core's.
   Patch grow(const std::vector<Index>& core, double& reach) const {
+    const double radius = work_.kernel.radius * std::sqrt(1 + 1e-5);
+    if (!extents_.empty()) {
+      reach = radius;
+      return grow_patch(*work_.nodes, core, radius, extents_);
+    }
     double edge = 0;
     for (const Index f : core) {
       for (const double length : work_.nodes->lengths[f]) edge = std::max(edge, length);
     }
     edge = std::min(1.05 * edge, longest_edge_);
     for (;;) {
-      reach = work_.kernel.radius * std::sqrt(1 + 1e-5) + 2 * edge;
+      reach = radius + 2 * edge;
       Patch patch = grow_patch(*work_.nodes, core, reach + work_.backend->margin(reach, edge));
       if (patch.longest_edge <= edge || edge >= longest_edge_) return patch;
       edge = std::min(1.02 * patch.longest_edge, longest_edge_);
@@ -110,6 +124,7 @@ class PatchFilter {
 
   const PatchWork& work_;
   const StoreResults& store_;
+  const std::vector<double>& extents_;
   const double longest_edge_;
   const bool by_nodes_;
   Kernel kernel_;
@@ -149,8 +164,9 @@ PatchCounts filter_patches(const PatchWork& work, const StoreResults& store,
       nodes, weights,
       target_weight(size.targets, by_nodes, sigma * sigma * size.targets / size.area));
 
+  const std::vector<double> extents = extents_for(work);
   tbb::enumerable_thread_specific<PatchFilter> filters(
-      [&] { return PatchFilter(work, by_nodes, store); });
+      [&] { return PatchFilter(work, by_nodes, extents, store); });
   // Summed in the end, so that sums don't depend on the threads.
   std::vector<PatchCounts> counts(cores.size());
   std::mutex progress_mutex;
@@ -187,7 +203,8 @@ double estimate_table_seconds(const PatchWork& work) {
   if (face == kNone) return 0;
   PatchCounts counts;
   const StoreResults nothing = [](Index, Index, const float*) {};
-  PatchFilter(work, false, nothing).run({face}, counts);
+  const std::vector<double> extents = extents_for(work);
+  PatchFilter(work, false, extents, nothing).run({face}, counts);
   // Nodes between patches are sources of each of them: about a third more.
   const auto sources = double(std::count(needed.begin(), needed.end(), true)) * 1.3;
   return counts.table_cpu_seconds / double(std::max<std::uint64_t>(counts.table_rows, 1)) * sources;

@@ -85,7 +85,21 @@ struct Growth {
   double noise = 1e-9;           // relative error that was put up with
 };
 
-Growth march_from(const NodeMesh& mesh, const Numbering& core, double reach) {
+// How far from the core faces are wanted.
+struct Reach {
+  double everywhere = 0;
+  double per_extent = 0;  // and so much farther for each unit of a face's extent
+  const std::vector<double>* extents = nullptr;  // per node of the mesh
+
+  double at(const NodeMesh& mesh, Index face) const {
+    if (extents == nullptr) return everywhere;
+    const auto& n = mesh.faces[face];
+    return everywhere +
+           per_extent * std::max({(*extents)[n[0]], (*extents)[n[1]], (*extents)[n[2]]});
+  }
+};
+
+Growth march_from(const NodeMesh& mesh, const Numbering& core, const Reach& reach) {
   Growth growth{Numbering(3 * core.keys().size()), {}};
   const auto number = [&](Index node) {
     const Index i = growth.nodes.find_or_add(node);
@@ -118,9 +132,10 @@ Growth march_from(const NodeMesh& mesh, const Numbering& core, double reach) {
     for (Index at = mesh.node_offsets[v]; at < mesh.node_offsets[v + 1]; ++at) {
       const Index f = mesh.node_faces[at];
       const auto& l = mesh.lengths[f];
-      // Beyond this the face can neither be within reach nor help one that is.
+      // Beyond this the face can neither be within reach nor help one that is: farther away reaches
+      // grow by less than the distance.
       const double longest = std::max({l[0], l[1], l[2]});
-      if (d - longest > reach) continue;
+      if (d - longest > reach.at(mesh, f)) continue;
       const auto& corner = mesh.faces[f];
       const std::array<Index, 3> n{number(corner[0]), number(corner[1]), number(corner[2])};
       const bool bridge = f >= mesh.faces.size() - mesh.bridge_faces;
@@ -155,9 +170,7 @@ bool within(const Growth& growth, const NodeMesh& mesh, Index face, double reach
   return false;
 }
 
-}  // namespace
-
-Patch grow_patch(const NodeMesh& mesh, const std::vector<Index>& core_faces, double reach) {
+Patch grow(const NodeMesh& mesh, const std::vector<Index>& core_faces, const Reach& reach) {
   Numbering faces(4 * core_faces.size()), nodes(4 * core_faces.size());
   for (const Index f : core_faces) faces.find_or_add(f);
   const Growth growth = march_from(mesh, faces, reach);
@@ -169,7 +182,7 @@ Patch grow_patch(const NodeMesh& mesh, const std::vector<Index>& core_faces, dou
   std::sort(halo.begin(), halo.end());
   halo.erase(std::unique(halo.begin(), halo.end()), halo.end());
   for (const Index f : halo)  // ascending, so that bridges come last
-    if (faces.find(f) == kNone && within(growth, mesh, f, reach)) faces.find_or_add(f);
+    if (faces.find(f) == kNone && within(growth, mesh, f, reach.at(mesh, f))) faces.find_or_add(f);
 
   Patch patch;
   patch.faces = faces.keys();
@@ -199,6 +212,60 @@ Patch grow_patch(const NodeMesh& mesh, const std::vector<Index>& core_faces, dou
       }
   }
   return patch;
+}
+
+}  // namespace
+
+Patch grow_patch(const NodeMesh& mesh, const std::vector<Index>& core_faces, double reach) {
+  return grow(mesh, core_faces, {reach});
+}
+
+Patch grow_patch(const NodeMesh& mesh, const std::vector<Index>& core_faces, double radius,
+                 const std::vector<double>& extents) {
+  // A path between corners i and j of two faces is at most radius + e_i + e_j long, and j at most
+  // radius + e_j from the core. So its points are at most radius + e_i / 2 + e_j from the core, and
+  // e_j is at most the extent there plus a third of e_i / 2 and of an edge. The corners of the
+  // faces that it crosses are an edge beyond.
+  double in_core = 0;
+  for (const Index f : core_faces)
+    for (const Index n : mesh.faces[f]) in_core = std::max(in_core, extents[n]);
+  Patch patch = grow(mesh, core_faces, {radius + in_core * 2 / 3, 7.0 / 3, &extents});
+  patch.extents.reserve(patch.nodes.size());
+  for (const Index n : patch.nodes) patch.extents.push_back(extents[n]);
+  return patch;
+}
+
+std::vector<double> edge_extents(const NodeMesh& mesh) {
+  constexpr double kSlope = 1.0 / 3;
+  std::vector<double> extents(mesh.nodes.size(), 0);
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    const auto& l = mesh.lengths[f];
+    const double longest = std::max({l[0], l[1], l[2]});
+    for (const Index n : mesh.faces[f]) extents[n] = std::max(extents[n], longest);
+  }
+  // Nodes that raise a neighbour, the highest first.
+  std::priority_queue<std::pair<double, Index>> queue;
+  const auto raise_around = [&](Index n) {
+    for (Index at = mesh.node_offsets[n]; at < mesh.node_offsets[n + 1]; ++at) {
+      const Index f = mesh.node_faces[at];
+      for (int k = 0; k < 3; ++k) {
+        const Index a = mesh.faces[f][k], b = mesh.faces[f][(k + 1) % 3];
+        if (a != n && b != n) continue;
+        const Index to = a == n ? b : a;
+        const double there = extents[n] - kSlope * mesh.lengths[f][k];
+        if (!(there > extents[to] * (1 + 1e-6))) continue;
+        extents[to] = there;
+        queue.emplace(there, to);
+      }
+    }
+  };
+  for (Index n = 0; n < extents.size(); ++n) raise_around(n);
+  while (!queue.empty()) {
+    const auto [extent, n] = queue.top();
+    queue.pop();
+    if (extent == extents[n]) raise_around(n);
+  }
+  return extents;
 }
 
 std::vector<std::array<Index, 3>> number_edges(const Patch& patch, Index& count) {

@@ -17,6 +17,8 @@ struct Patch {
   std::vector<std::array<double, 3>> lengths;    ///< per local face, as in NodeMesh
   std::vector<std::array<Index, 3>> neighbours;  ///< as in NodeMesh with local faces; kNone outside
   double longest_edge = 0;
+  /// Per local node: see edge_extents(). Empty if the patch was grown to the same reach everywhere.
+  std::vector<double> extents;
   Index bridge_faces = 0;  ///< so many of the last faces are bridges, as in NodeMesh
 };
 
@@ -34,6 +36,17 @@ std::vector<std::vector<Index>> partition_faces(const NodeMesh& mesh,
 /// would miss faces). Costs time and memory for the patch only, whatever the size of the mesh. \pre
 /// mesh.build_incidence() was called; core faces are distinct
 Patch grow_patch(const NodeMesh& mesh, const std::vector<Index>& core_faces, double reach);
+
+/// How long the edges near each node are: the longest around it, or around another node less a
+/// third of the distance to that along edges. So they hardly differ within an edge's length. \pre
+/// mesh.build_incidence() was called
+std::vector<double> edge_extents(const NodeMesh& mesh);
+
+/// The core with every face that tables need for pairs of points within `radius`, one in the core:
+/// the corners of their faces are at most the nodes' extents farther apart, and the paths between
+/// those stray little from the pairs'. Patch::extents is filled. \pre as above; no bridges
+Patch grow_patch(const NodeMesh& mesh, const std::vector<Index>& core_faces, double radius,
+                 const std::vector<double>& extents);
 
 /// Number of the edge k of every face. Edges are identified by the gluing where the patch knows it,
 /// else by their nodes and lengths: that also joins edges of three or more faces.

@@ -39,7 +39,7 @@ template <class T>
 struct Complex {
   std::vector<Index> offsets;
   std::vector<Step<T>> steps;
-  std::vector<T> limit2;  // per node: beyond this squared distance it tells no neighbour
+  std::vector<T> limit;  // per node: beyond this and the march's reach it tells no neighbour
 };
 
 template <class T>
@@ -57,8 +57,9 @@ HWY_BEFORE_NAMESPACE();
 namespace onmesh::unfold::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// reach: of all sources, in the complex's unit.
 template <class T>
-void march(const Complex<T>& complex, const Index* sources, int count, Scratch<T>& s) {
+void march(const Complex<T>& complex, const Index* sources, int count, T reach, Scratch<T>& s) {
   const hn::CappedTag<T, kLanes> d;
   const int lanes = int(hn::Lanes(d));
   const auto zero = hn::Zero(d), two = hn::Set(d, T(2)), far = hn::Set(d, T(kFar));
@@ -113,7 +114,8 @@ void march(const Complex<T>& complex, const Index* sources, int count, Scratch<T
       const auto l = hn::Set(d, step.edge), half = hn::Set(d, step.half_edge);
       const auto half_inverse = hn::Set(d, step.half_inverse), side = hn::Set(d, step.side);
       const auto x = hn::Set(d, step.x), y = hn::Set(d, step.y), side2 = hn::Set(d, step.side2);
-      const auto limit = hn::Set(d, complex.limit2[step.target]);
+      const T beyond = reach + complex.limit[step.target];
+      const auto limit2 = hn::Set(d, beyond * beyond);
       const auto floor = hn::Mul(tolerance, hn::Mul(l, l));
       bool changed = false, passes_on = false;
       for (int p = 0; p < kLanes; p += lanes) {
@@ -139,7 +141,7 @@ void march(const Complex<T>& complex, const Index* sources, int count, Scratch<T
         changed = true;
         hn::StoreU(hn::IfThenElse(better, there, old), d, at_target + p);
         passes_on |= !hn::AllFalse(
-            d, hn::And(hn::Lt(there, hn::Mul(old, significant)), hn::Le(there, limit)));
+            d, hn::And(hn::Lt(there, hn::Mul(old, significant)), hn::Le(there, limit2)));
       }
       if (changed) touch(step.target);
       if (passes_on) push(step.target);
@@ -147,13 +149,13 @@ void march(const Complex<T>& complex, const Index* sources, int count, Scratch<T
   }
 }
 
-void march_float(const Complex<float>& complex, const Index* sources, int count,
+void march_float(const Complex<float>& complex, const Index* sources, int count, float reach,
                  Scratch<float>& scratch) {
-  march(complex, sources, count, scratch);
+  march(complex, sources, count, reach, scratch);
 }
-void march_double(const Complex<double>& complex, const Index* sources, int count,
+void march_double(const Complex<double>& complex, const Index* sources, int count, double reach,
                   Scratch<double>& scratch) {
-  march(complex, sources, count, scratch);
+  march(complex, sources, count, reach, scratch);
 }
 
 }  // namespace onmesh::unfold::HWY_NAMESPACE
@@ -168,13 +170,13 @@ HWY_EXPORT(march_double);
 
 namespace {
 
-void march(const Complex<float>& complex, const Index* sources, int count,
+void march(const Complex<float>& complex, const Index* sources, int count, float reach,
            Scratch<float>& scratch) {
-  HWY_DYNAMIC_DISPATCH(march_float)(complex, sources, count, scratch);
+  HWY_DYNAMIC_DISPATCH(march_float)(complex, sources, count, reach, scratch);
 }
-void march(const Complex<double>& complex, const Index* sources, int count,
+void march(const Complex<double>& complex, const Index* sources, int count, double reach,
            Scratch<double>& scratch) {
-  HWY_DYNAMIC_DISPATCH(march_double)(complex, sources, count, scratch);
+  HWY_DYNAMIC_DISPATCH(march_double)(complex, sources, count, reach, scratch);
 }
 
 // Faces around each local node (CSR), each face once per node.
@@ -197,12 +199,11 @@ struct Incidence {
 };
 
 template <class T>
-Complex<T> make_complex(const Patch& patch, const Incidence& around, double reach, double scale,
-                        double slack) {
+Complex<T> make_complex(const Patch& patch, const Incidence& around, double scale, double slack) {
   Complex<T> complex;
   const Index nodes = Index(patch.nodes.size());
   complex.offsets.reserve(nodes + 1);
-  complex.limit2.reserve(nodes);
+  complex.limit.reserve(nodes);
   complex.steps.reserve(6 * patch.corners.size());
   complex.offsets.push_back(0);
   const Index surface_faces = Index(patch.corners.size()) - patch.bridge_faces;
@@ -240,8 +241,10 @@ Complex<T> make_complex(const Patch& patch, const Incidence& around, double reac
       }
     }
     complex.offsets.push_back(Index(complex.steps.size()));
-    const double limit = reach / scale + slack * longest;
-    complex.limit2.push_back(T(limit * limit));
+    // A node j that is needed may be an edge nearer, and its extent a third of that larger.
+    double limit = slack * longest;
+    if (!patch.extents.empty()) limit += patch.extents[v] / scale + longest / 3;
+    complex.limit.push_back(T(limit));
   }
   return complex;
 }
@@ -279,7 +282,7 @@ std::vector<Index> order_sources(const Patch& patch, const Incidence& around) {
 template <class T>
 void fill_table(const Patch& patch, const Incidence& around, double reach, double scale,
                 double slack, DistanceTable& table) {
-  const Complex<T> complex = make_complex<T>(patch, around, reach, scale, slack);
+  const Complex<T> complex = make_complex<T>(patch, around, scale, slack);
   const std::vector<Index> order = order_sources(patch, around);
   const std::size_t nodes = patch.nodes.size();
   Scratch<T> scratch;
@@ -291,7 +294,10 @@ void fill_table(const Patch& patch, const Incidence& around, double reach, doubl
   const double scale2 = scale * scale;
   for (std::size_t begin = 0; begin < order.size(); begin += kLanes) {
     const int count = int(std::min<std::size_t>(kLanes, order.size() - begin));
-    march(complex, order.data() + begin, count, scratch);
+    double extent = 0;
+    for (int lane = 0; lane < count && !patch.extents.empty(); ++lane)
+      extent = std::max(extent, patch.extents[order[begin + lane]]);
+    march(complex, order.data() + begin, count, T((reach + extent) / scale), scratch);
     for (const Index node : scratch.touched) {
       T* const at = scratch.squared.data() + std::size_t(node) * kLanes;
       for (int lane = 0; lane < count; ++lane)
@@ -307,6 +313,7 @@ void fill_table(const Patch& patch, const Incidence& around, double reach, doubl
 class Unfold final : public DistanceBackend {
  public:
   std::string_view name() const override { return "unfold"; }
+  bool knows_extents() const override { return true; }
 
   // A path no longer than `reach` stays within reach; the triangles it crosses have corners at most
   // an edge beyond.
