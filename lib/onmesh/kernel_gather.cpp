@@ -1,5 +1,7 @@
 #include "onmesh/kernel_gather.h"
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -19,6 +21,15 @@ constexpr float kNoArea = -120 * kExponentUnit;
 constexpr float kLargestProduct = 27 * kExponentUnit, kLeastExponent = -42 * kExponentUnit;
 
 Vec3 barycentric(const Sample& s) { return {1.0 - s.b1 - s.b2, s.b1, s.b2}; }
+
+/// Fetch the colours of a face's samples: they are all over the texture, and none should be waited
+/// for by itself. (Inlined, since a function that does nothing else is removed by the compiler.)
+HWY_INLINE void prefetch_colours(const Colours& colours, const Samples& samples, Index face) {
+  for (Index k = samples.face_offsets[face]; k < samples.face_offsets[face + 1]; ++k) {
+    hwy::Prefetch(colours.values +
+                  std::size_t(samples.samples[k].texel) * std::size_t(colours.stride));
+  }
+}
 
 /// Which faces of the patch can hold a sample within reach of one of the work's targets.
 std::vector<unsigned char> find_faces_near(const KernelInput& input, const KernelWork& work) {
@@ -95,6 +106,7 @@ Extremes gather_samples(const KernelInput& input, double variance_scale,
     KernelWork::Face face;
     face.corners = patch.corners[local];
     face.begin = used;
+    prefetch_colours(colours, sources, f);
     const auto number = static_cast<std::uint32_t>(work.faces.size());
     for (Index k = sources.face_offsets[f]; k < sources.face_offsets[f + 1]; ++k) {
       const Sample& s = sources.samples[k];
@@ -313,6 +325,7 @@ void gather_targets(const KernelInput& input, double variance_scale, KernelWork&
   Index group_count = 0;
   for (const auto* group = &groups.next(); !group->empty(); group = &groups.next()) {
     for (const Index f : *group) {
+      prefetch_colours(colours, targets, patch.faces[f]);
       for (Index slot = first_slot[f]; slot < first_slot[f + 1]; ++slot) {
         if (input.only && !(*input.only)[slot]) continue;
         const Sample& s = sample_of(f, slot);
