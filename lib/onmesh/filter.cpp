@@ -1,5 +1,6 @@
 #include "onmesh/filter.h"
 
+#include <hwy/cache_control.h>
 #include <sys/resource.h>
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -139,6 +140,9 @@ class Results {
 
   /// As StoreResults.
   void store(Index begin, Index end, const float* values) {
+    // Texels of a face are in many rows; none should be waited for by itself.
+    for (Index target = begin; target < end; ++target)
+      hwy::Prefetch(image_.texel(targets_.samples[target].texel));
     auto shared = std::lower_bound(shared_.begin(), shared_.end(), begin);
     for (Index target = begin; target < end; ++target, values += channels_.size()) {
       if (shared != shared_.end() && *shared == target) {

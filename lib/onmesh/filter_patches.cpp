@@ -27,7 +27,7 @@ double thread_seconds() {
 /// nodes the halo costs as much as the core, which should be large beside sigma.
 double target_weight(double targets, bool by_nodes, double targets_per_square_sigma) {
   if (!by_nodes) return std::clamp(targets / 128, 2048.0, 65536.0);
-  return std::min(std::max(512 * targets_per_square_sigma, 8192.0),
+  return std::min(std::max(1024 * targets_per_square_sigma, 8192.0),
                   std::clamp(targets / 48, 2048.0, 524288.0));
 }
 
