@@ -50,7 +50,8 @@ Command make_command() {
   add("tolerance", text(),
       "auto, nodes: most RMS difference to the direct sums, as a share of the texture's range of "
       "values; measured on some texels of every patch (default: 1/512)");
-  add("node-spacing", text(), "length between the nodes of the distance table (default: by sigma)");
+  add("node-spacing", text(),
+      "length between the nodes of the distance table (default: by sigma and curvature)");
   add("samples", text("texel"),
       "texel (every texel once) or poisson (random points, none close to another)");
   add("spacing", text(),

@@ -35,7 +35,7 @@ struct NodeSpacing {
 /// flat, a quarter of sigma where distances bend; but with enough texels per node face to keep the
 /// kernel busy and tables small: 10 texels where the surface is curved. Interpolation is exact on
 /// flat and folded surface; on curved surface squared distances d^2 are off by about
-/// h^2 d^2 |K| / 18 at spacing h.
+/// h^2 d^2 |K| / 12 at spacing h.
 /// \param depends_on_spacing sigma where the surface is smooth: distances are only as good as the
 ///   nodes are close (heat, cloud, bridges), or the result is the distances' alone (Gaussian
 ///   filter)
