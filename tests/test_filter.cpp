@@ -442,5 +442,61 @@ TEST_CASE("the plan tells what the filter then does", "[filter]") {
   CHECK(report.stages.size() == 5);
 }
 
+TEST_CASE("patches without a usable texel keep their texels", "[filter]") {
+  const TriangleMesh mesh = make_plane(4, 4);
+  Image texture = make_texture(256, 256, Pattern::checker, 0.2, 1);
+  for (int y = 0; y < 256; ++y)
+    for (Index x = 0; x < 200; ++x)
+      texture.texel(Index(y) * 256 + x)[0] = std::numeric_limits<float>::quiet_NaN();
+  for (const FilterMethod method : {FilterMethod::direct, FilterMethod::nodes}) {
+    FilterOptions options = options_for(FilterKind::bilateral, 4);
+    options.method = method;
+    options.gutter = 0;
+    FilterReport report;
+    const Image result = filter(mesh, texture, options, &report);
+    double change = 0;
+    for (Index t = 0; t < 256 * 256; ++t) {
+      if (t % 256 < 200) {
+        REQUIRE(std::isnan(result.texel(t)[0]));
+        REQUIRE(result.texel(t)[1] == texture.texel(t)[1]);
+      } else {
+        change = std::max<double>(change, std::abs(result.texel(t)[0] - texture.texel(t)[0]));
+      }
+    }
+    CHECK(change > 0.01);
+    CHECK(report.without_sample == 256 * 200);
+  }
+}
+
+TEST_CASE("texels without a sample within the radius keep their values", "[filter]") {
+  const TriangleMesh mesh = make_plane(4, 4);
+  const Image texture = make_texture(128, 128, Pattern::checker, 0.2, 1);
+  for (const FilterMethod method : {FilterMethod::direct, FilterMethod::nodes}) {
+    FilterOptions options = options_for(FilterKind::bilateral, 2);
+    options.method = method;
+    options.samples = SampleKind::poisson;
+    options.spacing = Length{0.6};
+    FilterReport report;
+    const Image result = filter(mesh, texture, options, &report);
+    CHECK(report.without_sample > 0.9 * double(report.texels));
+    CHECK(psnr(mesh, texture, result) > 20);
+  }
+}
+
+TEST_CASE("how far nodes are apart does not decide which texels are within the radius",
+          "[filter]") {
+  const TriangleMesh mesh = make_plane(4, 4);
+  const Image texture = make_texture(500, 500, Pattern::checker, 0.2, 1);
+  FilterReport fine, coarse;
+  FilterOptions options = options_for(FilterKind::bilateral, 1);
+  options.radius = Length{2, Length::Unit::texel};
+  options.method = FilterMethod::direct;
+  filter(mesh, texture, options, &coarse);
+  options.node_spacing = Length{2, Length::Unit::texel};
+  filter(mesh, texture, options, &fine);
+  CHECK(coarse.nodes < fine.nodes / 4);
+  CHECK(coarse.pairs == fine.pairs);
+}
+
 }  // namespace
 }  // namespace onmesh

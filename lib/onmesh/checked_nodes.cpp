@@ -1,7 +1,9 @@
 #include "onmesh/checked_nodes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -90,10 +92,20 @@ CheckedNodes::CheckedNodes(const KernelOptions& options, double tolerance, bool 
     : nodes_(options), radius_(options.radius), tolerance_(tolerance), always_(always) {}
 
 void CheckedNodes::pick(const KernelInput& input) {
+  // Where most targets are summed directly there is little to check; then look elsewhere.
+  constexpr std::uint64_t kTries = 8;
   picked_.clear();
-  if (support_.empty()) return;
+  for (std::uint64_t t = 0; t < kTries && !support_.empty(); ++t) {
+    pick_at(input, hash(input.patch->faces[0] + (t << 32)));
+    const auto checked = std::count_if(picked_.begin(), picked_.end(),
+                                       [&](Index k) { return support_[k] >= kLittleSupport; });
+    if (2 * std::size_t(checked) >= picked_.size()) return;
+  }
+}
+
+void CheckedNodes::pick_at(const KernelInput& input, std::uint64_t random) {
+  picked_.clear();
   const auto slots = Index(support_.size());
-  const std::uint64_t random = hash(input.patch->faces[0]);
   const auto at = Index(random % slots);
   Index first = 0, count = 0;
   for (Index f = 0; first + count <= at; ++f) {
@@ -111,7 +123,7 @@ void CheckedNodes::pick(const KernelInput& input) {
 void CheckedNodes::find_doubtful(float little) {
   doubtful_.clear();
   for (Index k = 0; k < support_.size(); ++k)
-    if (support_[k] < most_doubtful_) doubtful_.push_back(k);
+    if (support_[k] < doubtful_below_) doubtful_.push_back(k);
   const auto beyond = std::partition(doubtful_.begin(), doubtful_.end(),
                                      [&](Index k) { return support_[k] < little; });
   little_supported_ = std::size_t(beyond - doubtful_.begin());
@@ -173,13 +185,14 @@ double CheckedNodes::measure(const KernelInput& input, NodeCheck& check) const {
       ++check.checked;
     }
   }
-  return check.checked > 0 ? std::sqrt(check.squared_error / double(check.checked)) : 0;
+  if (check.checked == 0) return std::numeric_limits<double>::infinity();
+  return std::sqrt(check.squared_error / double(check.checked));
 }
 
 void CheckedNodes::settle_uncertain(const KernelInput& input, Kernel& kernel, KernelCounts& counts,
                                     NodeCheck& check) {
   const auto channels = std::size_t(input.colours.channels);
-  for (float little = kLittleSupport; little <= most_doubtful_; little *= 4) {
+  for (float little = kLittleSupport;; little = std::min(4 * little, doubtful_below_)) {
     find_doubtful(little);
     const KernelCounts more = sum_directly(input, kernel, doubtful_);
     counts.pairs += more.pairs;
@@ -192,7 +205,7 @@ void CheckedNodes::settle_uncertain(const KernelInput& input, Kernel& kernel, Ke
         largest = std::max(largest, std::abs(double(sums_[v]) - values_[v]));
     }
     check.largest_error = std::max(check.largest_error, largest);
-    if (largest <= kFarOff * tolerance_) break;
+    if (largest <= kFarOff * tolerance_ || little >= doubtful_below_) break;
   }
   for (Index k = 0; k < is_summed_.size(); ++k) {
     if (!is_summed_[k]) continue;
@@ -202,9 +215,9 @@ void CheckedNodes::settle_uncertain(const KernelInput& input, Kernel& kernel, Ke
 
 KernelCounts CheckedNodes::sum_first(const KernelInput& input, Kernel& kernel, NodeCheck& check) {
   pick(input);
-  most_doubtful_ = kLittleSupport;
+  doubtful_below_ = kLittleSupport;
   for (const float support : support_)
-    most_doubtful_ = std::max(most_doubtful_, kDoubtful * support);
+    doubtful_below_ = std::max(doubtful_below_, kDoubtful * support);
   is_summed_.assign(support_.size(), 0);
   std::vector<Index> first = picked_;
   // One pass over the samples serves both checks, unless so much is uncertain that the nodes may

@@ -51,7 +51,9 @@ class CheckedNodes {
   static double cost_of_sums(const Size& size, const KernelOptions& options);
 
  private:
+  /// Choose targets at random to measure the error on.
   void pick(const KernelInput& input);
+  void pick_at(const KernelInput& input, std::uint64_t random);
   /// All targets with less support than `little`, then the least supported of the others.
   void find_doubtful(float little);
   /// Fill sums_ for those of the targets where they are not known yet.
@@ -74,7 +76,7 @@ class CheckedNodes {
   std::vector<Index> picked_;     ///< at random
   std::vector<Index> doubtful_;   ///< the first little_supported_ are to be summed directly
   std::size_t little_supported_ = 0;
-  float most_doubtful_ = 0;  ///< support of the others is less
+  float doubtful_below_ = 0;  ///< support of those
 };
 
 }  // namespace onmesh

@@ -101,14 +101,15 @@ class PatchFilter {
   }
 
  private:
-  /// A pair within the radius lies in faces whose corners are at most two edges farther apart. How
-  /// long these edges are is known only once the patch is there: try a little more than the core's.
   Patch grow(const std::vector<Index>& core, double& reach) const {
     const double radius = work_.kernel.radius * std::sqrt(1 + 1e-5);
     if (!extents_.empty()) {
       reach = radius;
       return grow_patch(*work_.nodes, core, radius, extents_);
     }
+    // A pair within the radius lies in faces whose corners are at most two edges farther apart. How
+    // long these edges are is known only once the patch is there: try a little more than the
+    // core's.
     double edge = 0;
     for (const Index f : core) {
       for (const double length : work_.nodes->lengths[f]) edge = std::max(edge, length);
@@ -150,14 +151,17 @@ PatchCounts filter_patches(const PatchWork& work, const StoreResults& store,
                            const std::function<void(double)>& progress) {
   const NodeMesh& nodes = *work.nodes;
   std::vector<double> weights(nodes.faces.size());
+  std::vector<bool> is_needed(nodes.nodes.size(), false);
   CheckedNodes::Size size;
-  size.nodes = double(nodes.nodes.size());
   size.samples = double(work.sources->samples.size());
   size.targets = double(work.targets->samples.size());
   for (Index f = 0; f < weights.size(); ++f) {
     weights[f] = work.targets->face_offsets[f + 1] - work.targets->face_offsets[f];
-    if (weights[f] > 0) size.area += nodes.face_area(f);
+    if (weights[f] == 0) continue;
+    size.area += nodes.face_area(f);
+    for (const Index n : nodes.faces[f]) is_needed[n] = true;
   }
+  size.nodes = double(std::count(is_needed.begin(), is_needed.end(), true));
   const bool by_nodes = choose_nodes(work, size);
   const double sigma = work.kernel.sigma_spatial;
   const std::vector<std::vector<Index>> cores = partition_faces(

@@ -162,12 +162,13 @@ std::uint64_t estimate_memory(const Image& texture, const FilterPlan& plan) {
 
 }  // namespace
 
-NodeSpacing node_spacing_for(double sigma, double texel_size, bool depends_on_spacing,
-                             bool by_nodes) {
+NodeSpacing node_spacing_for(double sigma, double radius, double texel_size,
+                             bool depends_on_spacing, bool by_nodes) {
   const double curved = std::max((depends_on_spacing ? 1.0 : 1.5) * sigma,
                                  (depends_on_spacing || by_nodes ? 4 : 10) * texel_size);
   const double finest = std::max(sigma / 4, 2 * texel_size);
-  return {depends_on_spacing ? curved : 2 * curved, curved, std::min(curved, finest)};
+  const double flat = depends_on_spacing ? curved : std::clamp(3 * radius, curved, 2 * curved);
+  return {flat, curved, std::min(curved, finest)};
 }
 
 RefineOptions refinement_for(const FilterSetup& setup) {
@@ -183,7 +184,7 @@ RefineOptions refinement_for(const FilterSetup& setup) {
   options.flat_faces = setup.plan.bridge > 0;
   options.needed.reserve(setup.mesh.faces.size());
   for (const double area : setup.map.texel_area) options.needed.push_back(area > 0);
-  // Patches reach two edges beyond the radius, from node faces that reach an edge beyond the
+  // Patches reach three edges beyond the radius, from node faces that reach an edge beyond the
   // texels; some more keep the faces there as small as they are where the spacing is not yet
   // larger.
   options.reach = plan.radius + std::max(9 * plan.curved_spacing, 6 * plan.node_spacing);
@@ -240,8 +241,9 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   const bool depends_on_spacing = options.distance == DistanceMethod::heat ||
                                   options.distance == DistanceMethod::cloud || plan.bridge > 0 ||
                                   options.kind == FilterKind::gaussian;
-  const NodeSpacing rule = node_spacing_for(plan.sigma_spatial, plan.texel_size, depends_on_spacing,
-                                            options.method == FilterMethod::nodes);
+  const NodeSpacing rule =
+      node_spacing_for(plan.sigma_spatial, plan.radius, plan.texel_size, depends_on_spacing,
+                       options.method == FilterMethod::nodes);
   plan.node_spacing = options.node_spacing ? resolved(*options.node_spacing) : rule.flat;
   plan.curved_spacing = options.node_spacing ? plan.node_spacing : rule.curved;
   plan.finest_spacing = options.node_spacing ? plan.node_spacing / 4 : rule.finest;

@@ -78,7 +78,7 @@ class Neighbourhood {
       const KernelWork::Face& face = work_.faces[f];
       const auto& n = face.corners;
       const float farthest = std::max({nearest_[n[0]], nearest_[n[1]], nearest_[n[2]]});
-      if (farthest > work_.reach_squared) continue;
+      if (farthest > face.reach_squared) continue;
       Face& near = faces.emplace_back(Face{{}, face.slack, face.begin, face.end, f});
       for (int i = 0; i < 3; ++i) {
         if (index_[n[i]] == kNone) {
@@ -119,7 +119,7 @@ class Block {
         sums_(hwy::AllocateAligned<float>((channels_ + 1) * lanes_)),
         most_(table_.columns),
         least_(table_.columns),
-        corner_exponents_(hwy::AllocateAligned<float>(work.faces.size() * 3 * lanes_)),
+        corner_exponents_(hwy::AllocateAligned<float>((work.faces.size() + 1) * 3 * lanes_)),
         unreachable_(table_.columns) {}
 
   /// Sum over all samples in the neighbourhood for the targets from `first` on.
@@ -408,7 +408,8 @@ Kernel::Kernel(Kernel&&) noexcept = default;
 
 KernelCounts Kernel::run(const KernelInput& input, std::vector<float>& out) {
   gather(input, options_, *work_, out);
-  KernelCounts counts = HWY_DYNAMIC_DISPATCH(run_patch)(input, *work_, out);
+  KernelCounts counts;
+  if (!work_->targets.empty()) counts = HWY_DYNAMIC_DISPATCH(run_patch)(input, *work_, out);
   counts.without_sample += work_->kept;
   return counts;
 }

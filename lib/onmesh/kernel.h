@@ -57,7 +57,8 @@ class Kernel {
   /// Samples with a channel that is not finite (or beyond 1e15 in units of sigma_range) have no
   /// weight, and targets with such a texel keep their own values; so do targets whose weights sum
   /// to nothing (8e-25 of a like sample at distance 0). The relative error of a weight is below
-  /// 2e-5, below 4e-6 where colours are more than 8 sigma_range apart. Two faces between whose
+  /// 2e-5 where table entries are at most 20 sigma^2, below 4e-6 where colours are more than 8
+  /// sigma_range apart; it grows with the entries, which are floats. Two faces between whose
   /// corners a table entry is kUnreachable exchange nothing. \param out `channels` values per
   /// target, for core face 0's targets first, then core face 1's,
   ///   ... in the order of `targets`

@@ -31,6 +31,13 @@ HWY_INLINE void prefetch_colours(const Colours& colours, const Samples& samples,
   }
 }
 
+/// See KernelWork::Face.
+float reach_squared(const KernelWork& work, const std::array<double, 3>& lengths) {
+  const double reach =
+      work.core_reach + std::max({lengths[0], lengths[1], lengths[2]}) * (1 + 1e-6);
+  return static_cast<float>(reach * reach);
+}
+
 /// Which faces of the patch can hold a sample within reach of one of the work's targets.
 std::vector<unsigned char> find_faces_near(const KernelInput& input, const KernelWork& work) {
   const DistanceTable& table = *input.table;
@@ -46,7 +53,8 @@ std::vector<unsigned char> find_faces_near(const KernelInput& input, const Kerne
   std::vector<unsigned char> is_near(input.patch->corners.size());
   for (std::size_t f = 0; f < is_near.size(); ++f) {
     const auto& n = input.patch->corners[f];
-    is_near[f] = std::max({nearest[n[0]], nearest[n[1]], nearest[n[2]]}) <= work.reach_squared;
+    is_near[f] = std::max({nearest[n[0]], nearest[n[1]], nearest[n[2]]}) <=
+                 reach_squared(work, input.patch->lengths[f]);
   }
   return is_near;
 }
@@ -91,7 +99,8 @@ Extremes gather_samples(const KernelInput& input, double variance_scale,
     if (array->size() < count + KernelWork::kPadding) array->resize(count + KernelWork::kPadding);
   }
 
-  const float inverse_area = 1 / largest_area(patch, sources, is_needed);
+  float inverse_area = 1 / largest_area(patch, sources, is_needed);
+  if (!std::isfinite(inverse_area)) inverse_area = 0;  // areas too small to be compared
   float* record = work.records.data();
   std::size_t used = 0;
   float last_area = -1, log_area = 0;  // most neighbours stand for the same area
@@ -105,6 +114,7 @@ Extremes gather_samples(const KernelInput& input, double variance_scale,
                                        float(variance_scale * l[2] * l[2])};
     KernelWork::Face face;
     face.corners = patch.corners[local];
+    face.reach_squared = reach_squared(work, l);
     face.begin = used;
     prefetch_colours(colours, sources, f);
     const auto number = static_cast<std::uint32_t>(work.faces.size());
@@ -352,7 +362,8 @@ void gather_targets(const KernelInput& input, double variance_scale, KernelWork&
     const Vec3 a = barycentric(s);
     KernelWork::Target target;
     target.corners = patch.corners[place.face];
-    for (int i = 0; i < 3; ++i) target.barycentric[i] = static_cast<float>(a[i]);
+    // Rounding must not make them negative: times what is unreachable that could be NaN.
+    for (int i = 0; i < 3; ++i) target.barycentric[i] = static_cast<float>(std::max(a[i], 0.0));
     target.variance =
         static_cast<float>(variance_scale * barycentric_variance(patch.lengths[place.face], a));
     target.face = place.face;
@@ -392,9 +403,10 @@ void gather(const KernelInput& input, const KernelOptions& options, KernelWork& 
   work.distance_scale = static_cast<float>(-scale);
   // On regular grids many pairs tie at the radius; rounding must not decide about them.
   work.limit = static_cast<float>(-scale * options.radius * options.radius * (1 + 1e-5));
-  const double reach =
-      options.radius * std::sqrt(1 + 1e-5) + 2 * input.patch->longest_edge * (1 + 1e-6);
-  work.reach_squared = static_cast<float>(reach * reach);
+  double core_edge = 0;
+  for (Index f = 0; f < input.patch->core_faces; ++f)
+    for (const double l : input.patch->lengths[f]) core_edge = std::max(core_edge, l);
+  work.core_reach = options.radius * std::sqrt(1 + 1e-5) + core_edge * (1 + 1e-6);
   work.range_channels = 0;
   work.colour_scale = work.usable_scale = 1;
   if (options.sigma_range > 0) {

@@ -26,6 +26,9 @@ struct KernelWork {
     std::array<Index, 3> corners;    ///< local nodes
     std::size_t begin = 0, end = 0;  ///< records
     float slack = 0;  ///< how much larger a sample's exponent can be than all three corners'
+    /// Squared distance that corners of this and a target's face never exceed if there is a pair
+    /// within the radius.
+    float reach_squared = 0;
   };
   /// A target with the corners of its core face.
   struct Target {
@@ -45,9 +48,8 @@ struct KernelWork {
   /// Per channel, in the colours' own unit: the middle of the targets', so that equal colours are
   /// 0.
   std::vector<float> reference;
-  float limit = 0;  ///< exponent at the radius
-  /// Squared distance that the corners of two faces with a pair within the radius never exceed.
-  float reach_squared = 0;
+  float limit = 0;        ///< exponent at the radius
+  double core_reach = 0;  ///< the radius and the longest edge of a target's face
 
   std::vector<Face> faces;
   /// Per sample kFixed values, then its scaled colour y: b1, b2, variance + a, limit - variance,
@@ -73,12 +75,13 @@ struct KernelWork {
 void gather(const KernelInput& input, const KernelOptions& options, KernelWork& work,
             std::vector<float>& out);
 
+/// Scaled colours beyond this would overflow when squared and summed.
+constexpr float kLargestColour = 1e15F;
+
 /// A texel's values can be summed: finite, and small enough to be squared once scaled.
 inline bool is_usable(const float* colour, int channels, float scale) {
-  // Scaled colours beyond this would overflow when squared and summed. Comparisons with NaN fail.
-  constexpr float kLargest = 1e15F;
-  bool usable = true;
-  for (int c = 0; c < channels; ++c) usable &= std::abs(colour[c] * scale) < kLargest;
+  bool usable = true;  // comparisons with NaN fail
+  for (int c = 0; c < channels; ++c) usable &= std::abs(colour[c] * scale) < kLargestColour;
   return usable;
 }
 

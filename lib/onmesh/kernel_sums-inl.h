@@ -21,7 +21,7 @@ using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 
-/// The sum of weights that is nothing: more than a million of the smallest that exp2() gives.
+/// The sum of weights that is nothing: more than a million of 2^-100.
 constexpr float kNothing = 8e-25F;
 
 /// The exponents of a block's targets over one face are linear in the sample's barycentrics:

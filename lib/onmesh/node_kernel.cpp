@@ -446,6 +446,9 @@ namespace {
 /// average are halved before. Subnodes so far apart are as good as the node table itself.
 constexpr double kSplit = 0.5, kHalved = 2;
 
+/// Entries of a halved patch's table: 256 MB a thread at most.
+constexpr double kMostHalved = 64e6;
+
 double mean_core_edge(const Patch& patch) {
   double sum = 0;
   for (Index f = 0; f < patch.core_faces; ++f)
@@ -484,7 +487,8 @@ bool NodeKernel::load(const KernelInput& input) {
                        [sigma](float v) { return v > 0.5 * sigma * sigma; });
   };
   if (s.is_halved || is_too_coarse()) {
-    if (input.patch->bridge_faces > 0) return false;
+    const double entries = 16.0 * double(input.table->rows) * double(input.table->columns);
+    if (input.patch->bridge_faces > 0 || entries > kMostHalved) return false;
     s.is_halved = true;
     halve(*input.patch, *input.table, s.halved);
     s.subnodes = make_subnodes(s.halved.patch, kSplit * sigma);

@@ -13,6 +13,7 @@
 #include <array>
 #include <vector>
 
+#include "onmesh/kernel_gather.h"
 #include "onmesh/node_gather.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -24,9 +25,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::CappedTag<float, Palette::kLanes>;
 using V = hn::Vec<D>;
-
-/// Scaled colours beyond this would overflow when squared and summed, as is_usable() has it.
-constexpr float kLargestColour = 1e15F;
 
 /// The numbers of a face's samples, from 0, by the quarter that holds them of a part of the face.
 class Quarters {

@@ -236,7 +236,7 @@ Patch grow_patch(const NodeMesh& mesh, const std::vector<Index>& core_faces, dou
 }
 
 std::vector<double> edge_extents(const NodeMesh& mesh) {
-  constexpr double kSlope = 1.0 / 3;
+  constexpr double kSlope = 1.0 / 7;
   std::vector<double> extents(mesh.nodes.size(), 0);
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     const auto& l = mesh.lengths[f];

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "onmesh/error.h"
 #include "onmesh/texel_hits.h"
 
 namespace onmesh {
@@ -71,6 +72,10 @@ class PieceFinder {
     std::fill_n(piece_of_, count_, kNone);
     const Index first = overlay_.face_offsets[face_], beyond = overlay_.face_offsets[face_ + 1];
     for (Index p = first; p < beyond; ++p) rasterise(p, counts);
+    if (first == beyond) {
+      throw NumericError("face " + std::to_string(face_) +
+                         " is too thin to be laid out between the nodes");
+    }
     if (std::accumulate(&counts[first], &counts[first] + (beyond - first), Index{0}) == count_)
       return;
     // Claims that no piece holds lie a rounding error outside all of them.

@@ -241,7 +241,8 @@ Complex<T> make_complex(const Patch& patch, const Incidence& around, double scal
       }
     }
     complex.offsets.push_back(Index(complex.steps.size()));
-    // A node j that is needed may be an edge nearer, and its extent a third of that larger.
+    // Entries are needed up to the reach and the extents of both nodes; a node at the other end of
+    // an edge from v may have an extent larger by a third of it.
     double limit = slack * longest;
     if (!patch.extents.empty()) limit += patch.extents[v] / scale + longest / 3;
     complex.limit.push_back(T(limit));

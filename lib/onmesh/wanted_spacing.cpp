@@ -13,7 +13,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Links with more faces are not measured: distances certainly bend there.
 constexpr std::size_t kLargestLink = 64;
-/// Makes the spacing the finest for any ratio of the two up to 8.
+/// Makes the spacing the finest, however much larger it is elsewhere.
 constexpr double kSharpestBend = 2 * kPi;
 
 double corner_angle(const TriangleMesh& mesh, Index face, std::size_t k) {
@@ -135,7 +135,7 @@ std::vector<double> wanted_spacing(const TriangleMesh& mesh, const EdgeTable& ed
     const double by_curvature =
         std::sqrt(options.flatness * std::max(around[v].area, options.spread) / bend);
     const double smooth =
-        bend > 0 ? std::clamp(by_curvature, curved, options.spacing) : options.spacing;
+        bend > 0 ? std::min(std::max(by_curvature, curved), options.spacing) : options.spacing;
     spacing[v] = std::max(finest, smooth / (1 + options.sharpness * bend));
     if (spacing[v] < options.spacing) front.emplace(spacing[v], v);
   }
