@@ -17,11 +17,12 @@ constexpr double kMostResidual = 0.16;
 constexpr Index kPicked = 64;
 /// Area per node of a regular mesh with unit edges.
 constexpr double kEquilateral = 0.866;
+/// So many of the others with the least support are, too, to see whether more should be.
 constexpr std::size_t kLeastSupported = 64;
-/// Support below which targets are summed directly at first.
+/// Support below which targets are summed directly.
 constexpr float kLittleSupport = 8;
-/// Share of the patch's largest support below which targets may be doubted.
-constexpr float kDoubtful = 0.5F;
+/// Support below which targets may be doubted, and share of the patch's largest.
+constexpr float kDoubtfulSupport = 200, kDoubtfulShare = 0.2F;
 /// Where more than one in so many targets has little support the nodes may be given up.
 constexpr std::size_t kMostUncertain = 16;
 /// An error of an uncertain target that asks for more direct sums, in tolerances.
@@ -120,18 +121,19 @@ void CheckedNodes::pick_at(const KernelInput& input, std::uint64_t random) {
   for (Index k = first; k < slots && picked_.size() < kPicked; k += step) picked_.push_back(k);
 }
 
-void CheckedNodes::find_doubtful(float little) {
+void CheckedNodes::find_doubtful(std::size_t others) {
   doubtful_.clear();
   for (Index k = 0; k < support_.size(); ++k)
     if (support_[k] < doubtful_below_) doubtful_.push_back(k);
   const auto beyond = std::partition(doubtful_.begin(), doubtful_.end(),
-                                     [&](Index k) { return support_[k] < little; });
+                                     [&](Index k) { return support_[k] < kLittleSupport; });
   little_supported_ = std::size_t(beyond - doubtful_.begin());
-  if (std::size_t(doubtful_.end() - beyond) <= kLeastSupported) return;
-  std::nth_element(beyond, beyond + kLeastSupported, doubtful_.end(), [&](Index a, Index b) {
+  const auto last =
+      beyond + std::min<std::ptrdiff_t>(std::ptrdiff_t(others), doubtful_.end() - beyond);
+  std::partial_sort(beyond, last, doubtful_.end(), [&](Index a, Index b) {
     return std::pair(support_[a], a) < std::pair(support_[b], b);
   });
-  doubtful_.resize(little_supported_ + kLeastSupported);
+  doubtful_.erase(last, doubtful_.end());
 }
 
 KernelCounts CheckedNodes::sum_directly(const KernelInput& input, Kernel& kernel,
@@ -192,20 +194,23 @@ double CheckedNodes::measure(const KernelInput& input, NodeCheck& check) const {
 void CheckedNodes::settle_uncertain(const KernelInput& input, Kernel& kernel, KernelCounts& counts,
                                     NodeCheck& check) {
   const auto channels = std::size_t(input.colours.channels);
-  for (float little = kLittleSupport;; little = std::min(4 * little, doubtful_below_)) {
-    find_doubtful(little);
+  // Where some of the least supported are far off, look at more of them, until the last are not.
+  std::size_t judged = 0;
+  for (std::size_t others = kLeastSupported;; others *= 4) {
+    find_doubtful(others);
     const KernelCounts more = sum_directly(input, kernel, doubtful_);
     counts.pairs += more.pairs;
     counts.without_sample += more.without_sample;
-    check.direct = little_supported_;
+    check.direct = little_supported_ + judged;
     double largest = 0;
-    for (std::size_t i = little_supported_; i < doubtful_.size(); ++i) {
+    for (std::size_t i = little_supported_ + judged; i < doubtful_.size(); ++i) {
       const std::size_t first = doubtful_[i] * channels;
       for (std::size_t v = first; v < first + channels; ++v)
         largest = std::max(largest, std::abs(double(sums_[v]) - values_[v]));
     }
     check.largest_error = std::max(check.largest_error, largest);
-    if (largest <= kFarOff * tolerance_ || little >= doubtful_below_) break;
+    judged = doubtful_.size() - little_supported_;
+    if (largest <= kFarOff * tolerance_ || judged < others) break;
   }
   for (Index k = 0; k < is_summed_.size(); ++k) {
     if (!is_summed_[k]) continue;
@@ -215,14 +220,14 @@ void CheckedNodes::settle_uncertain(const KernelInput& input, Kernel& kernel, Ke
 
 KernelCounts CheckedNodes::sum_first(const KernelInput& input, Kernel& kernel, NodeCheck& check) {
   pick(input);
-  doubtful_below_ = kLittleSupport;
+  doubtful_below_ = kDoubtfulSupport;
   for (const float support : support_)
-    doubtful_below_ = std::max(doubtful_below_, kDoubtful * support);
+    doubtful_below_ = std::max(doubtful_below_, kDoubtfulShare * support);
   is_summed_.assign(support_.size(), 0);
   std::vector<Index> first = picked_;
   // One pass over the samples serves both checks, unless so much is uncertain that the nodes may
   // well be given up.
-  find_doubtful(kLittleSupport);
+  find_doubtful(kLeastSupported);
   if (little_supported_ <= support_.size() / kMostUncertain)
     first.insert(first.end(), doubtful_.begin(), doubtful_.end());
   const KernelCounts counts = sum_directly(input, kernel, first);

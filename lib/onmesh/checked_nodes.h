@@ -54,8 +54,8 @@ class CheckedNodes {
   /// Choose targets at random to measure the error on.
   void pick(const KernelInput& input);
   void pick_at(const KernelInput& input, std::uint64_t random);
-  /// All targets with less support than `little`, then the least supported of the others.
-  void find_doubtful(float little);
+  /// All targets with little support, then so many of the others, the least supported first.
+  void find_doubtful(std::size_t others);
   /// Fill sums_ for those of the targets where they are not known yet.
   KernelCounts sum_directly(const KernelInput& input, Kernel& kernel,
                             const std::vector<Index>& targets);
