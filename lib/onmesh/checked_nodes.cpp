@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "onmesh/splitmix.h"
+
 namespace onmesh {
 namespace {
 
@@ -27,13 +29,6 @@ constexpr float kDoubtfulSupport = 200, kDoubtfulShare = 0.2F;
 constexpr std::size_t kMostUncertain = 16;
 /// An error of an uncertain target that asks for more direct sums, in tolerances.
 constexpr double kFarOff = 16;
-
-std::uint64_t hash(std::uint64_t x) {  // splitmix64 (Steele, Lea & Flood 2014)
-  x += 0x9e3779b97f4a7c15U;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31);
-}
 
 /// The part of a patch that some of its core faces need: they become its core, and its halo all
 /// other faces with a point that may be within the radius of one of theirs. Nodes stay the same.
@@ -97,7 +92,7 @@ void CheckedNodes::pick(const KernelInput& input) {
   constexpr std::uint64_t kTries = 8;
   picked_.clear();
   for (std::uint64_t t = 0; t < kTries && !support_.empty(); ++t) {
-    pick_at(input, hash(input.patch->faces[0] + (t << 32)));
+    pick_at(input, SplitMix(input.patch->faces[0] + (t << 32)).next());
     const auto checked = std::count_if(picked_.begin(), picked_.end(),
                                        [&](Index k) { return support_[k] >= kLittleSupport; });
     if (2 * std::size_t(checked) >= picked_.size()) return;
