@@ -1,9 +1,9 @@
 // The whole filter: texels per second, and how the time is shared out.
 #include <benchmark/benchmark.h>
 
-#include "onmesh/filter.h"
-#include "onmesh/pattern.h"
-#include "onmesh/shapes.h"
+#include "onmesh/filter/filter.h"
+#include "onmesh/procedural/shapes.h"
+#include "onmesh/procedural/texture.h"
 
 namespace onmesh {
 namespace {

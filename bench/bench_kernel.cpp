@@ -1,7 +1,7 @@
 // Taps per second of the bilateral kernel on a flat patch.
 #include <benchmark/benchmark.h>
 
-#include "../tests/flat_patch.h"
+#include "support/flat_patch.h"
 
 namespace onmesh {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "onmesh/intrinsic.h"
-#include "onmesh/refine.h"
-#include "onmesh/samples.h"
-#include "onmesh/shapes.h"
+#include "onmesh/nodes/intrinsic_triangulation.h"
+#include "onmesh/nodes/refine.h"
+#include "onmesh/procedural/shapes.h"
+#include "onmesh/samples/samples.h"
 
 using namespace onmesh;
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "../tests/simple_shapes.h"
-#include "onmesh/distance.h"
+#include "onmesh/distance/backend.h"
+#include "support/simple_shapes.h"
 
 namespace {
 

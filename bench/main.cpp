@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "bench_scaling.h"
-#include "onmesh/kernel.h"
-#include "planar_filter.h"
+#include "onmesh/kernel/direct/direct_kernel.h"
+#include "scaling/bench_scaling.h"
+#include "scaling/planar_filter.h"
 
 namespace {
 

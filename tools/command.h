@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "onmesh/error.h"
-#include "onmesh/progress.h"
+#include "onmesh/base/error.h"
+#include "onmesh/base/progress.h"
 
 namespace onmesh::tools {
 

@@ -1,5 +1,5 @@
 // onmesh compare: how two textures differ, and how visible their seams are.
-#include "onmesh/compare.h"
+#include "onmesh/measure/image_difference.h"
 
 #include <iomanip>
 #include <iostream>

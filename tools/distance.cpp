@@ -1,5 +1,5 @@
 // onmesh distance: geodesic distances from one point, per vertex and per texel.
-#include "onmesh/distance.h"
+#include "onmesh/distance/backend.h"
 
 #include <algorithm>
 #include <chrono>
@@ -11,9 +11,9 @@
 #include "command.h"
 #include "distance_compare.h"
 #include "inputs.h"
-#include "onmesh/bridge.h"
-#include "onmesh/length.h"
-#include "onmesh/ply.h"
+#include "onmesh/filter/length.h"
+#include "onmesh/mesh_io/write_ply.h"
+#include "onmesh/nodes/bridge.h"
 
 namespace onmesh::tools {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "distance_field.h"
-#include "onmesh/distance_error.h"
+#include "onmesh/measure/distance_error.h"
 
 namespace onmesh::tools {
 

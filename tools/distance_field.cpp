@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "onmesh/distance_error.h"
-#include "onmesh/projection.h"
-#include "onmesh/samples.h"
+#include "onmesh/measure/distance_error.h"
+#include "onmesh/mesh/closest_point.h"
+#include "onmesh/samples/samples.h"
 
 namespace onmesh::tools {
 namespace {
@@ -104,7 +104,7 @@ DistanceSource source_at_uv(const TriangleMesh& mesh, const Vec2& uv) {
 }
 
 DistanceSource source_at_point(const TriangleMesh& mesh, const Vec3& point) {
-  const SurfacePoint closest = Projection(mesh).closest(point);
+  const SurfacePoint closest = ClosestPoint(mesh).closest(point);
   return {closest, kNone, (mesh.position(closest) - point).norm()};
 }
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "inputs.h"
-#include "onmesh/distance.h"
-#include "onmesh/refine.h"
+#include "onmesh/distance/backend.h"
+#include "onmesh/nodes/refine.h"
 
 namespace onmesh::tools {
 

@@ -6,8 +6,8 @@
 
 #include "command.h"
 #include "inputs.h"
-#include "onmesh/filter.h"
-#include "onmesh/mesh_io.h"
+#include "onmesh/filter/filter.h"
+#include "onmesh/mesh_io/mesh_io.h"
 #include "texture_choice.h"
 
 namespace onmesh::tools {

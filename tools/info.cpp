@@ -6,8 +6,8 @@
 
 #include "command.h"
 #include "inputs.h"
-#include "onmesh/classify.h"
-#include "onmesh/compare.h"
+#include "onmesh/measure/image_difference.h"
+#include "onmesh/measure/mesh_report.h"
 
 namespace onmesh::tools {
 namespace {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "command.h"
-#include "onmesh/image.h"
-#include "onmesh/length.h"
-#include "onmesh/texel_map.h"
-#include "onmesh/triangle_mesh.h"
+#include "onmesh/atlas/texel_map.h"
+#include "onmesh/filter/length.h"
+#include "onmesh/image/image.h"
+#include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh::tools {
 

@@ -1,14 +1,14 @@
 // onmesh make-mesh: the parametric shapes of the library as OBJ with a texture.
-#include "onmesh/shapes.h"
+#include "onmesh/procedural/shapes.h"
 
 #include <algorithm>
 #include <set>
 #include <string_view>
 
 #include "command.h"
-#include "onmesh/image.h"
-#include "onmesh/mesh_io.h"
-#include "onmesh/pattern.h"
+#include "onmesh/image/image.h"
+#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/procedural/texture.h"
 
 namespace onmesh::tools {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "onmesh/error.h"
-#include "onmesh/file_io.h"
-#include "onmesh/ply_header.h"
+#include "onmesh/base/error.h"
+#include "onmesh/base/file_io.h"
+#include "onmesh/mesh_io/ply_header.h"
 
 namespace onmesh::tools {
 namespace {

@@ -1,5 +1,5 @@
 // onmesh refine: the nodes that distances are computed between, as PLY with statistics.
-#include "onmesh/refine.h"
+#include "onmesh/nodes/refine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include "command.h"
 #include "inputs.h"
-#include "onmesh/length.h"
-#include "onmesh/mesh_io.h"
-#include "onmesh/ply.h"
+#include "onmesh/filter/length.h"
+#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh_io/write_ply.h"
 
 namespace onmesh::tools {
 namespace {

@@ -10,12 +10,12 @@
 
 #include "command.h"
 #include "inputs.h"
-#include "onmesh/length.h"
-#include "onmesh/mesh_io.h"
-#include "onmesh/ply.h"
-#include "onmesh/poisson.h"
-#include "onmesh/texel_hits.h"
-#include "onmesh/texel_map.h"
+#include "onmesh/atlas/claim_lookup.h"
+#include "onmesh/atlas/texel_map.h"
+#include "onmesh/filter/length.h"
+#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh_io/write_ply.h"
+#include "onmesh/poisson/poisson.h"
 
 namespace onmesh::tools {
 namespace {
@@ -100,7 +100,7 @@ struct Hits {
 
 Hits count_hits(const TriangleMesh& mesh, const TexelMap& map,
                 const std::vector<SurfacePoint>& samples) {
-  const TexelHits hits_of(map);
+  const ClaimLookup hits_of(map);
   std::vector<bool> is_hit(map.coverage.size(), false);
   for (const SurfacePoint& s : samples) {
     if (map.chart_of_face[s.face] == kNone) continue;

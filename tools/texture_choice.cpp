@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "onmesh/error.h"
+#include "onmesh/base/error.h"
 
 namespace onmesh::tools {
 namespace {

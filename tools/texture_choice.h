@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "onmesh/triangle_mesh.h"
+#include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh::tools {
 

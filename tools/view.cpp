@@ -5,10 +5,10 @@
 
 #include "command.h"
 #include "inputs.h"
-#include "onmesh/image.h"
-#include "onmesh/mesh_io.h"
-#include "onmesh/picture.h"
-#include "onmesh/render.h"
+#include "onmesh/image/image.h"
+#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/render/render.h"
+#include "onmesh/render/texture_view.h"
 #include "ply_column.h"
 
 namespace onmesh::tools {

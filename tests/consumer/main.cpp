@@ -1,6 +1,6 @@
 // Filters a small cube through the installed library: exit code 0 if the noise got less.
-#include <onmesh/filter.h>
-#include <onmesh/shapes.h>
+#include <onmesh/filter/filter.h>
+#include <onmesh/procedural/shapes.h>
 
 #include <cstdio>
 #include <exception>

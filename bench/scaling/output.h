@@ -1,0 +1,28 @@
+// The measurements of the whole filter as Markdown and plots.
+#pragma once
+
+#include <string>
+
+#include "scaling/results.h"
+
+namespace onmesh::bench {
+
+/// One table per family: seconds by method, beside OpenCV's 2D filter, and memory.
+std::string summary(const Results& results);
+
+/// One table of all benchmarks: how the time is shared out between the stages, and what the nodes
+/// did.
+std::string details(const Results& results);
+
+/// Writes scaling-texels.svg, scaling-sigma.svg, scaling-threads.svg and scaling-mesh_size.svg into
+/// the folder, as far as there are results. \throw FileError
+void write_plots(const std::string& folder, const Results& results);
+
+/// Links to these plots in Markdown.
+std::string plot_links(const std::string& folder, const Results& results);
+
+/// The text with all between the lines "<!-- scaling: begin -->" and "<!-- scaling: end -->"
+/// replaced. \throw InputError if they are not there
+std::string with_summary(const std::string& text, const std::string& summary);
+
+}  // namespace onmesh::bench

@@ -1,0 +1,50 @@
+// The pieces that make_texel_map is put together from (internal).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "onmesh/atlas/texel_map.h"
+#include "onmesh/atlas/uv_triangle.h"
+
+namespace onmesh {
+
+/// More texels than this are not claimed: offsets have 32 bits.
+inline constexpr double kMostClaims = 2147483648.0;
+
+/// The atlas that a texel map is made from. `map` has its size, texel areas and charts by now.
+struct Atlas {
+  const TriangleMesh& mesh;
+  TexelMap& map;
+  const std::vector<bool>& used;  ///< faces with UVs that carry the texture
+  const UvNeighbours& neighbours;
+  double tolerance;  ///< pixels
+
+  PixelTriangle triangle(Index face) const {
+    return {mesh, face, map.width, map.height, tolerance};
+  }
+  bool rasterised(Index face) const { return map.texel_area[face] > 0; }
+  /// Limit rows or columns to those that are rasterised: with Wrap::clamp the image's.
+  void clip(std::pair<std::int64_t, std::int64_t>& range, int size) const {
+    if (map.wrap == Wrap::repeat) return;
+    range.first = std::max<std::int64_t>(range.first, 0);
+    range.second = std::min<std::int64_t>(range.second, size);
+  }
+};
+
+/// Some rows of a face: the piece of work.
+struct Strip {
+  Index face;
+  std::int32_t begin, end;
+};
+
+/// All rows of all rasterised faces, ordered by face and row.
+std::vector<Strip> make_strips(const Atlas& atlas);
+
+/// Fill in the map's claims and mark their texels covered.
+void claim_texels(const Atlas& atlas, const std::vector<Strip>& strips);
+
+}  // namespace onmesh

@@ -1,0 +1,28 @@
+// Which texels are gutter, and which chart's edge each belongs to (internal).
+#pragma once
+
+#include <vector>
+
+#include "onmesh/atlas/texel_map.h"
+#include "onmesh/atlas/unfolded_walk.h"
+
+namespace onmesh {
+
+/// Touched texels and `rings` rings around touched and covered ones, ascending.
+std::vector<Index> gutter_texels(const TexelMap& map, int rings);
+
+/// The closest point of the charts' boundaries.
+struct NearestEdge {
+  Index face = kNone;
+  int edge = 0;         ///< of the face, from corner `edge` to the next
+  TexelClaim texel;     ///< the gutter texel in the chart's own tile
+  double position = 0;  ///< of the closest point along the edge, 0 to 1
+  double squared_distance = 0;
+};
+
+/// For each gutter texel the nearest edge that bounds a chart, by distance from its centre in
+/// pixels.
+std::vector<NearestEdge> nearest_edges(const TriangleMesh& mesh, const TexelMap& map, int rings,
+                                       const std::vector<Index>& gutter);
+
+}  // namespace onmesh

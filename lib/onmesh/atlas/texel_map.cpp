@@ -1,0 +1,257 @@
+#include "onmesh/atlas/texel_map.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+
+#include "onmesh/atlas/claim_texels.h"
+#include "onmesh/atlas/uv_triangle.h"
+#include "onmesh/base/error.h"
+
+namespace onmesh {
+namespace {
+
+constexpr std::int64_t kStripRows = 256;
+constexpr double kMostTiles = 1 << 14;
+constexpr double kFurthestTexel = 1 << 30;
+
+/// Refuse UVs that cannot be rasterised.
+void check(const TriangleMesh& mesh, const std::vector<bool>& used, const TexelMap& map) {
+  double total = 0;
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    if (!used[f]) continue;
+    const auto uv = mesh.corner_uvs(f);
+    const Vec2 low = uv[0].cwiseMin(uv[1]).cwiseMin(uv[2]);
+    const Vec2 high = uv[0].cwiseMax(uv[1]).cwiseMax(uv[2]);
+    const std::string name = "face " + std::to_string(f);
+    if (!(uv[0].allFinite() && uv[1].allFinite() && uv[2].allFinite()))
+      throw InputError(name + ": its UVs are not finite");
+    if ((high - low).maxCoeff() > kMostTiles)
+      throw InputError(name + ": its UVs span more than 16384 tiles");
+    if (std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()) *
+            std::max(map.width, map.height) >
+        kFurthestTexel)
+      throw InputError(name + ": its UVs lie too far from [0,1]");
+    const Vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
+    total += std::abs(a.x() * b.y() - a.y() * b.x()) / 2 * map.width * map.height;
+  }
+  if (map.wrap == Wrap::repeat && total > kMostClaims)
+    throw InputError("the UVs repeat the texture too often: more than 2^31 texels are covered");
+}
+
+/// Texel areas and the maps to barycentric coordinates.
+void make_transforms(const Atlas& atlas) {
+  const std::size_t faces = atlas.mesh.faces.size();
+  atlas.map.texel_area.assign(faces, 0.0);
+  atlas.map.to_barycentric_.assign(faces, Eigen::Matrix3d::Zero());
+  parallel_over(faces, [&](std::size_t i) {
+    const Index f = Index(i);
+    if (!atlas.used[f]) return;
+    const PixelTriangle t = atlas.triangle(f);
+    const auto p = atlas.mesh.corners(f);
+    const double surface = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
+    const double texel = surface / std::abs(t.area);
+    if (t.flat || !(texel > 0) || !std::isfinite(texel)) return;
+    atlas.map.texel_area[f] = texel;
+    auto& m = atlas.map.to_barycentric_[f];
+    for (int k = 0; k < 3; ++k) {
+      const Vec2 &a = t.corners[std::size_t((k + 1) % 3)], &b = t.corners[std::size_t((k + 2) % 3)];
+      const Vec2& c = t.corners[std::size_t(k)];
+      m(k, 0) = (a.y() - b.y()) / (2 * t.area);
+      m(k, 1) = (b.x() - a.x()) / (2 * t.area);
+      // Coordinate k is 1 at its own corner; products of far corners would cancel.
+      m(k, 2) = 1 - m(k, 0) * c.x() - m(k, 1) * c.y();
+    }
+  });
+}
+
+/// Number the charts in the order of their first faces.
+void make_charts(const Atlas& atlas) {
+  const std::size_t faces = atlas.mesh.faces.size();
+  std::vector<Index> parent(faces);
+  std::iota(parent.begin(), parent.end(), Index(0));
+  const auto root = [&](Index f) {
+    while (parent[f] != f) f = parent[f] = parent[parent[f]];
+    return f;
+  };
+  for (Index f = 0; f < faces; ++f) {
+    if (!atlas.used[f]) continue;
+    for (int k = 0; k < 3; ++k)
+      atlas.neighbours.across_edge(f, k, [&](Index g) {
+        const Index a = root(f), b = root(g);
+        parent[std::max(a, b)] = std::min(a, b);
+      });
+  }
+  // Faces that are not rasterised hold a chart together but have no number.
+  atlas.map.chart_of_face.assign(faces, kNone);
+  std::vector<Index> number(faces, kNone);
+  for (Index f = 0; f < faces; ++f) {
+    if (!atlas.rasterised(f)) continue;
+    Index& n = number[root(f)];
+    if (n == kNone) n = atlas.map.charts++;
+    atlas.map.chart_of_face[f] = n;
+  }
+}
+
+/// Mark every texel whose square a chart meets.
+void mark_touched(const Atlas& atlas, const std::vector<Strip>& strips) {
+  const std::size_t width = std::size_t(atlas.map.width);
+  atlas.map.coverage.assign(width * std::size_t(atlas.map.height), Coverage::none);
+  parallel_over(strips.size(), [&](std::size_t i) {
+    const Strip& strip = strips[i];
+    const PixelTriangle t = atlas.triangle(strip.face);
+    for (std::int32_t row = strip.begin; row < strip.end; ++row) {
+      auto columns = t.columns(row, atlas.tolerance);
+      atlas.clip(columns, atlas.map.width);
+      columns.second = std::min(columns.second, columns.first + atlas.map.width);
+      if (columns.first >= columns.second) continue;
+      Index at = atlas.map.texel({std::int32_t(columns.first), row});
+      Coverage* line = &atlas.map.coverage[at / width * width];
+      std::size_t x = at % width;
+      for (auto n = columns.second - columns.first; n > 0; --n) {
+        std::atomic_ref<Coverage>(line[x]).store(Coverage::touched, std::memory_order_relaxed);
+        if (++x == width) x = 0;
+      }
+    }
+  });
+}
+
+}  // namespace
+
+std::vector<Strip> make_strips(const Atlas& atlas) {
+  std::vector<Strip> strips;
+  for (Index f = 0; f < atlas.mesh.faces.size(); ++f) {
+    if (!atlas.rasterised(f)) continue;
+    auto rows = atlas.triangle(f).rows(atlas.tolerance);
+    atlas.clip(rows, atlas.map.height);
+    for (auto row = rows.first; row < rows.second; row += kStripRows)
+      strips.push_back(
+          {f, std::int32_t(row), std::int32_t(std::min(row + kStripRows, rows.second))});
+  }
+  return strips;
+}
+
+Index TexelMap::texel_at(const Vec2& uv) const {
+  TexelClaim square{static_cast<std::int32_t>(std::floor(uv.x() * width)),
+                    static_cast<std::int32_t>(std::floor((1 - uv.y()) * height))};
+  if (wrap == Wrap::clamp) {
+    square.x = std::clamp(square.x, 0, width - 1);
+    square.y = std::clamp(square.y, 0, height - 1);
+  }
+  return texel(square);
+}
+
+Vec3 TexelMap::barycentric(Index face, const TexelClaim& claim) const {
+  const auto& m = to_barycentric_[face];
+  const Vec3 centre{claim.x + 0.5, claim.y + 0.5, 1};
+  const Vec3 b = m * centre;
+  if (b.minCoeff() >= 0) return b / b.sum();
+  // Outside: the closest point of the triangle, whose corners have coordinates 1 and 0.
+  const Eigen::Matrix3d corners = m.inverse();
+  Vec3 best = Vec3::Zero();
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    const int l = (k + 1) % 3;
+    double t = 0;
+    const double d = squared_distance_to_segment(centre.head<2>(), corners.col(k).head<2>(),
+                                                 corners.col(l).head<2>(), &t);
+    if (d >= least) continue;
+    least = d;
+    best = Vec3::Zero();
+    best[k] = 1 - t;
+    best[l] = t;
+  }
+  return best;
+}
+
+std::vector<Index> TexelMap::overlapped() const {
+  // Each claim covers its texel: as many of both means one each.
+  const std::size_t covered = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, coverage.size(), 65536), std::size_t{0},
+      [&](const tbb::blocked_range<std::size_t>& part, std::size_t sum) {
+        const auto first = coverage.begin() + std::ptrdiff_t(part.begin());
+        return sum + std::size_t(
+                         std::count(first, first + std::ptrdiff_t(part.size()), Coverage::covered));
+      },
+      std::plus<>());
+  if (covered == claims.size()) return {};
+  std::vector<std::uint8_t> count(coverage.size(), 0);
+  for (const TexelClaim& claim : claims) {
+    std::uint8_t& n = count[texel(claim)];
+    n = std::uint8_t(std::min(n + 1, 2));
+  }
+  std::vector<Index> result;
+  for (std::size_t i = 0; i < count.size(); ++i)
+    if (count[i] > 1) result.push_back(Index(i));
+  return result;
+}
+
+std::vector<Index> TexelMap::crowded() const {
+  std::vector<Index> chart_at(coverage.size(), kNone);
+  for (std::size_t f = 0; f + 1 < face_offsets.size(); ++f) {
+    for (Index k = face_offsets[f]; k < face_offsets[f + 1]; ++k)
+      chart_at[texel(claims[k])] = chart_of_face[f];
+  }
+  const auto is_crowded = [&](int x, int y) {
+    const Index own = chart_at[texel({x, y})];
+    if (own == kNone) return false;
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v) {
+      for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
+        const Index other = chart_at[texel({u, v})];
+        if (other != kNone && other != own) return true;
+      }
+    }
+    return false;
+  };
+  std::vector<Index> result;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x)
+      if (is_crowded(x, y)) result.push_back(texel({x, y}));
+  }
+  return result;
+}
+
+double TexelMap::median_texel_size() const {
+  std::vector<std::pair<double, Index>> sizes;
+  for (std::size_t f = 0; f < texel_area.size(); ++f) {
+    const Index count = face_offsets[f + 1] - face_offsets[f];
+    if (count > 0) sizes.emplace_back(std::sqrt(texel_area[f]), count);
+  }
+  std::sort(sizes.begin(), sizes.end());
+  std::size_t below = 0;
+  for (const auto& [size, count] : sizes) {
+    below += count;
+    if (2 * below >= claims.size()) return size;
+  }
+  return 0;
+}
+
+TexelMap make_texel_map(const TriangleMesh& mesh, int width, int height,
+                        const TexelMapOptions& options) {
+  TexelMap map;
+  map.width = width;
+  map.height = height;
+  map.wrap = options.wrap;
+  std::vector<bool> used(mesh.faces.size());
+  for (Index f = 0; f < used.size(); ++f)
+    used[f] = mesh.has_uvs(f) && (options.faces.empty() || options.faces[f]);
+  check(mesh, used, map);
+  const UvNeighbours neighbours(mesh, used);
+  const Atlas atlas{mesh, map, used, neighbours, pixel_tolerance(mesh, used, width, height)};
+  make_transforms(atlas);
+  make_charts(atlas);
+  const std::vector<Strip> strips = make_strips(atlas);
+  mark_touched(atlas, strips);
+  claim_texels(atlas, strips);
+  return map;
+}
+
+}  // namespace onmesh

@@ -1,0 +1,81 @@
+// Walking straight over a mesh, faces unfolded into one plane on the way (internal: the gutter
+// finds what lies beyond a seam with it).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "onmesh/atlas/texel_map.h"
+#include "onmesh/mesh/triangle_mesh.h"
+
+namespace onmesh {
+
+/// A face laid out in a plane together with those it was reached from.
+struct LaidFace {
+  Index face = kNone;
+  std::array<Vec2, 3> corners;
+  double winding = 1;  ///< 1 if the corners run anticlockwise, -1 if clockwise
+
+  Vec2 point(const Vec3& barycentric) const {
+    return barycentric[0] * corners[0] + barycentric[1] * corners[1] + barycentric[2] * corners[2];
+  }
+};
+
+/// Where a walk ended.
+struct WalkEnd {
+  LaidFace laid;
+  Vec2 point;            ///< in the plane
+  bool arrived = false;  ///< else the way is barred at the point, on the face's border
+};
+
+/// Barycentric coordinates in a triangle of the plane; not finite if it has no area.
+Vec3 barycentric_in(const std::array<Vec2, 3>& triangle, const Vec2& p);
+
+class UnfoldedWalk {
+ public:
+  UnfoldedWalk(const TriangleMesh& mesh, const TexelMap& map);
+
+  /// The face on its own, corner 0 at the origin.
+  LaidFace lay_out(Index face) const;
+
+  /// Go straight from a point in or on the face to `to`, both in its plane, over any edge that has
+  /// another face, up to the face that holds `to` or to where the surface ends.
+  WalkEnd over_surface(const LaidFace& start, const Vec2& from, const Vec2& to) const;
+
+  /// The same with points in pixels, steering by the UVs and without leaving the chart.
+  /// \return the face that holds `to`, nothing if the way is barred
+  std::optional<LaidFace> within_chart(const LaidFace& start, const Vec2& from,
+                                       const Vec2& to) const;
+
+  /// Corners of a face in pixels.
+  std::array<Vec2, 3> pixel_corners(Index face) const;
+
+  /// Face 3 f + k across edge k of face f, as 3 g + l; kNone at borders. Where more than two faces
+  /// meet it is the one that goes on most straight (the one that would be least folded there; the
+  /// lowest of equals), so that coming back may lead elsewhere.
+  Index across(Index face, int k) const { return across_[side(face, k)]; }
+  /// The same among the faces with the same UVs there; kNone if there are none.
+  Index across_in_chart(Index face, int k) const;
+
+ private:
+  template <bool by_uv>
+  WalkEnd walk(const LaidFace& start, const Vec2& from, const Vec2& to) const;
+  template <bool by_uv>
+  WalkEnd walk_out(const LaidFace& start, int edge, const Vec2& from, const Vec2& to) const;
+  template <bool by_uv>
+  std::array<Vec2, 3> steering_corners(const LaidFace& laid) const;
+  template <bool by_uv>
+  std::optional<LaidFace> cross(const LaidFace& laid, int k) const;
+  static std::size_t side(Index face, int k) { return std::size_t(3) * face + std::size_t(k); }
+  bool uvs_agree(Index face, std::size_t k, Index other, std::size_t l) const;
+  double straightness(Index face, std::size_t k, Index other, std::size_t l) const;
+
+  const TriangleMesh& mesh_;
+  const TexelMap& map_;
+  std::vector<Index> across_;
+  std::vector<std::pair<Index, Index>> in_chart_;  ///< sides where that is another face, ascending
+};
+
+}  // namespace onmesh

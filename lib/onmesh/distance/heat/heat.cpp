@@ -1,0 +1,217 @@
+// The heat method (Crane, Weischedel & Wardetzky 2013) on one patch, 16 sources at a time.
+//
+// At this range, a few node spacings, the method as published is no better than Euclidean distance.
+// What makes it accurate here:
+// - The patch is split 1 -> 4 (intrinsically: edge lengths halve), which quarters the time step t.
+// - Its error is first order in sqrt(t), so the divergence is extrapolated from t and 4 t:
+//   2 div(t) - div(4 t). Both are linear up to the one Poisson solve, so that costs one heat solve.
+// - The near field comes from the unfolding march on the same complex, to which the rest is fitted
+//   along every ray (heat_calibration.h).
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "onmesh/distance/heat/heat.cpp"
+#include <hwy/foreach_target.h>
+// Above is what includes this file again, so it comes before the rest.
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "onmesh/distance/heat/bridges.h"
+#include "onmesh/distance/heat/calibration.h"
+#include "onmesh/distance/heat/heat.h"
+#include "onmesh/distance/heat/linear_systems.h"
+
+#ifndef ONMESH_HEAT_SHARED
+#define ONMESH_HEAT_SHARED
+namespace onmesh::heat {
+constexpr int kLanes = 16;
+}  // namespace onmesh::heat
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace onmesh::heat::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// x := A^-1 x for kLanes right-hand sides; x[i * kLanes + lane]. Forward substitution changes only
+// `rows` (ascending): all, or those that the right-hand side's entries reach in the elimination
+// tree.
+void solve(const Factor& factor, const std::vector<Index>& rows, float* x) {
+  const hn::CappedTag<float, kLanes> d;
+  const int lanes = int(hn::Lanes(d));
+  // x_i := scale x_i - sum_k value_k x_k.
+  const auto substitute = [&](Index i, float scale, Index begin, Index end, const Index* index,
+                              const float* value) {
+    for (int p = 0; p < kLanes; p += lanes) {
+      float* const at = x + std::size_t(i) * kLanes + p;
+      auto a = hn::Mul(hn::LoadU(d, at), hn::Set(d, scale)), b = hn::Zero(d);
+      Index k = begin;
+      for (; k + 1 < end; k += 2) {
+        a = hn::NegMulAdd(hn::Set(d, value[k]),
+                          hn::LoadU(d, x + std::size_t(index[k]) * kLanes + p), a);
+        b = hn::NegMulAdd(hn::Set(d, value[k + 1]),
+                          hn::LoadU(d, x + std::size_t(index[k + 1]) * kLanes + p), b);
+      }
+      if (k < end)
+        a = hn::NegMulAdd(hn::Set(d, value[k]),
+                          hn::LoadU(d, x + std::size_t(index[k]) * kLanes + p), a);
+      hn::StoreU(hn::Add(a, b), d, at);
+    }
+  };
+  for (const Index i : rows)
+    substitute(i, 1, factor.row_begin[i], factor.row_begin[i + 1], factor.row_index.data(),
+               factor.row_value.data());
+  for (Index i = Index(factor.inverse_d.size()); i-- > 0;)
+    substitute(i, factor.inverse_d[i], factor.column_begin[i], factor.column_begin[i + 1],
+               factor.column_index.data(), factor.column_value.data());
+}
+
+// out += weight times the integrated divergence of -grad u / |grad u|.
+void divergence(const std::vector<SplitFace>& faces, const float* u, float weight, float* out) {
+  const hn::CappedTag<float, kLanes> d;
+  const int lanes = int(hn::Lanes(d));
+  const auto zero = hn::Zero(d), one = hn::Set(d, 1.0F);
+  for (const SplitFace& f : faces) {
+    const auto gx1 = hn::Set(d, f.gx1), gy1 = hn::Set(d, f.gy1), gx2 = hn::Set(d, f.gx2),
+               gy2 = hn::Set(d, f.gy2), area = hn::Set(d, weight * f.area);
+    const std::size_t at0 = std::size_t(f.corner[0]) * kLanes;
+    const std::size_t at1 = std::size_t(f.corner[1]) * kLanes;
+    const std::size_t at2 = std::size_t(f.corner[2]) * kLanes;
+    for (int p = 0; p < kLanes; p += lanes) {
+      const auto u0 = hn::LoadU(d, u + at0 + p);
+      const auto u1 = hn::Sub(hn::LoadU(d, u + at1 + p), u0);
+      const auto u2 = hn::Sub(hn::LoadU(d, u + at2 + p), u0);
+      auto x = hn::MulAdd(u1, gx1, hn::Mul(u2, gx2)), y = hn::MulAdd(u1, gy1, hn::Mul(u2, gy2));
+      // Heat decays exponentially: by its largest component first, or the squares underflow.
+      const auto largest = hn::Max(hn::Abs(x), hn::Abs(y));
+      const auto known = hn::Gt(largest, zero);
+      const auto inverse = hn::Div(one, hn::IfThenElse(known, largest, one));
+      x = hn::Mul(x, inverse);
+      y = hn::Mul(y, inverse);
+      const auto norm = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
+      const auto scale = hn::IfThenElseZero(known, hn::Div(area, norm));
+      x = hn::Mul(x, scale);
+      y = hn::Mul(y, scale);
+      // The weak form: L phi = integral of X . grad(hat_i), L positive semidefinite.
+      const auto div1 = hn::Neg(hn::MulAdd(x, gx1, hn::Mul(y, gy1)));
+      const auto div2 = hn::Neg(hn::MulAdd(x, gx2, hn::Mul(y, gy2)));
+      const auto add = [&](std::size_t at, auto value) {
+        hn::StoreU(hn::Add(hn::LoadU(d, out + at + p), value), d, out + at + p);
+      };
+      add(at1, div1);
+      add(at2, div2);
+      add(at0, hn::Neg(hn::Add(div1, div2)));
+    }
+  }
+}
+
+}  // namespace onmesh::heat::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace onmesh {
+namespace heat {
+
+HWY_EXPORT(solve);
+HWY_EXPORT(divergence);
+
+namespace {
+
+// A source's heat. Large, so that the far field stays clear of denormal numbers.
+constexpr float kSourceHeat = 1e25F;
+
+// Solves for the patch's distances from up to kLanes core nodes at a time, up to a constant each.
+class Solver {
+ public:
+  explicit Solver(const System& system)
+      : system_(system),
+        heat_(std::size_t(system.size) * kLanes),
+        phi_(heat_.size()),
+        all_(system.size),
+        is_marked_(system.size, 0) {
+    for (Index i = 0; i < system.size; ++i) all_[i] = i;
+  }
+
+  void solve(Index first, int count) {
+    std::fill(phi_.begin(), phi_.end(), 0.0F);
+    add_divergence(system_.heat, first, count, 2);
+    add_divergence(system_.heat4, first, count, -1);
+    HWY_DYNAMIC_DISPATCH(solve)(system_.poisson, all_, phi_.data());
+  }
+  // In mesh units.
+  double value(Index node, int lane) const {
+    return system_.scale * phi_[std::size_t(system_.split_node[node]) * kLanes + lane];
+  }
+
+ private:
+  void add_divergence(const Factor& factor, Index first, int count, float weight) {
+    std::fill(heat_.begin(), heat_.end(), 0.0F);
+    // The rows that sources reach: their ancestors in the elimination tree.
+    rows_.clear();
+    for (int lane = 0; lane < count; ++lane) {
+      Index row = system_.split_node[first + lane];
+      heat_[std::size_t(row) * kLanes + lane] = kSourceHeat;
+      while (!is_marked_[row]) {
+        is_marked_[row] = 1;
+        rows_.push_back(row);
+        if (factor.column_begin[row] == factor.column_begin[row + 1]) break;
+        row = factor.column_index[factor.column_begin[row]];
+      }
+    }
+    std::sort(rows_.begin(), rows_.end());
+    for (const Index row : rows_) is_marked_[row] = 0;
+    HWY_DYNAMIC_DISPATCH(solve)(factor, rows_, heat_.data());
+    HWY_DYNAMIC_DISPATCH(divergence)(system_.faces, heat_.data(), weight, phi_.data());
+  }
+
+  const System& system_;
+  std::vector<float> heat_, phi_;
+  std::vector<Index> all_, rows_;
+  std::vector<unsigned char> is_marked_;
+};
+
+class Heat final : public DistanceBackend {
+ public:
+  std::string_view name() const override { return "heat"; }
+  double margin(double, double longest_edge) const override { return heat::margin(longest_edge); }
+  void fill(const Patch& patch, double reach, DistanceTable& table) const override {
+    if (patch.bridge_faces == 0) return heat::fill(patch, patch, {}, reach, table);
+    const Patch surface = surface_of(patch);
+    heat::fill(surface, surface, {}, reach, table);
+    cross_bridges(surface, patch, reach, table);
+  }
+};
+
+}  // namespace
+
+double margin(double longest_edge) { return 2 * longest_edge; }
+
+void fill(const Patch& near, const Patch& flow, const std::vector<float>& weights, double reach,
+          DistanceTable& table) {
+  Calibration calibration(near, reach);
+  make_unfold()->fill(near, calibration.near_reach(), table);
+  if (!(near.longest_edge > 0)) return;
+  const System system = make_system(flow, weights, reach);
+  Solver solver(system);
+  std::vector<double> phi(near.nodes.size());
+  for (Index first = 0; first < near.core_nodes; first += kLanes) {
+    const int count = int(std::min<Index>(kLanes, near.core_nodes - first));
+    solver.solve(first, count);
+    for (int lane = 0; lane < count; ++lane) {
+      const Index source = first + lane;
+      for (Index node = 0; node < phi.size(); ++node)
+        phi[node] = system.component[node] == system.component[source]
+                        ? solver.value(node, lane)
+                        : std::numeric_limits<double>::infinity();
+      calibration.complete(source, phi, table.squared.data() + std::size_t(source) * table.columns);
+    }
+  }
+}
+
+}  // namespace heat
+
+std::unique_ptr<DistanceBackend> make_heat() { return std::make_unique<heat::Heat>(); }
+
+}  // namespace onmesh
+#endif  // HWY_ONCE

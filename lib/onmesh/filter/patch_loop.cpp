@@ -1,0 +1,217 @@
+#include "onmesh/filter/patch_loop.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+namespace onmesh {
+namespace {
+
+/// A patch whose table would have more entries is halved: 64 MB a thread at most.
+constexpr double kTableEntries = 16e6;
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+/// Targets per patch. Large cores waste less: nodes between patches and halos are computed again by
+/// each of them. But all threads need patches to the end, and tables should stay in the cache. By
+/// nodes the halo costs as much as the core, which should be large beside sigma.
+double target_weight(double targets, bool by_nodes, double targets_per_square_sigma) {
+  if (!by_nodes) return std::clamp(targets / 128, 2048.0, 65536.0);
+  return std::min(std::max(1024 * targets_per_square_sigma, 8192.0),
+                  std::clamp(targets / 48, 2048.0, 524288.0));
+}
+
+/// For the back ends that know of them.
+std::vector<double> extents_for(const PatchWork& work) {
+  if (!work.backend->knows_extents() || work.nodes->bridge_faces > 0) return {};
+  return edge_extents(*work.nodes);
+}
+
+/// Whether it is worth evaluating on nodes. Direct sums that take no time to speak of are better.
+bool choose_nodes(const PatchWork& work, const CheckedKernel::Size& size) {
+  if (work.method != FilterMethod::automatic) return work.method == FilterMethod::nodes;
+  constexpr double kNoTime = 1e9;
+  if (CheckedKernel::subnode_spacing(size, work.kernel) > work.kernel.sigma_spatial) return false;
+  const double sums = CheckedKernel::cost_of_sums(size, work.kernel);
+  return sums > kNoTime &&
+         CheckedKernel::cost_of_nodes(size, work.kernel, work.colours.channels) < 0.5 * sums;
+}
+
+class PatchFilter {
+ public:
+  /// \param extents see edge_extents(); empty if the back end does not know of them
+  PatchFilter(const PatchWork& work, bool by_nodes, const std::vector<double>& extents,
+              const StoreResults& store)
+      : work_(work),
+        store_(store),
+        extents_(extents),
+        longest_edge_(work.nodes->longest_edge()),
+        by_nodes_(by_nodes),
+        kernel_(work.kernel),
+        nodes_(work.kernel, work.tolerance, work.method == FilterMethod::nodes) {}
+
+  /// Filter the targets of the core faces.
+  void run(const std::vector<Index>& core, PatchCounts& counts) {
+    const double start = thread_seconds();
+    double reach = 0;
+    const Patch patch = grow(core, reach);
+    const double entries = double(patch.core_nodes) * double(patch.nodes.size());
+    if (entries > kTableEntries && core.size() > 1) {
+      const auto middle = core.begin() + std::ptrdiff_t(core.size() / 2);
+      counts.table_cpu_seconds += thread_seconds() - start;
+      run({core.begin(), middle}, counts);
+      run({middle, core.end()}, counts);
+      return;
+    }
+    work_.backend->fill(patch, reach, table_);
+    const double filled = thread_seconds();
+    const KernelInput input{&patch, &table_, work_.sources, work_.targets, work_.colours, nullptr};
+    KernelCounts kernel;
+    NodeCheck check;
+    if (by_nodes_ && nodes_.run(input, kernel_, values_, kernel, check)) {
+      counts.nodes.add(check);
+      counts.pairs_within += check.pairs;
+    } else {
+      kernel = kernel_.run(input, values_);
+      counts.pairs_within += double(kernel.pairs);
+    }
+    const float* values = values_.data();
+    for (Index f = 0; f < patch.core_faces; ++f) {
+      const Index begin = work_.targets->face_offsets[patch.faces[f]];
+      const Index end = work_.targets->face_offsets[patch.faces[f] + 1];
+      store_(begin, end, values);
+      values += std::size_t(end - begin) * std::size_t(work_.colours.channels);
+    }
+    ++counts.patches;
+    counts.pairs += kernel.pairs;
+    counts.without_sample += kernel.without_sample;
+    counts.table_rows += patch.core_nodes;
+    counts.table_cpu_seconds += filled - start;
+    counts.kernel_cpu_seconds += thread_seconds() - filled;
+  }
+
+ private:
+  Patch grow(const std::vector<Index>& core, double& reach) const {
+    const double radius = work_.kernel.radius * std::sqrt(1 + 1e-5);
+    if (!extents_.empty()) {
+      reach = radius;
+      return grow_patch(*work_.nodes, core, radius, extents_);
+    }
+    // A pair within the radius lies in faces whose corners are at most two edges farther apart. How
+    // long these edges are is known only once the patch is there: try a little more than the
+    // core's.
+    double edge = 0;
+    for (const Index f : core) {
+      for (const double length : work_.nodes->lengths[f]) edge = std::max(edge, length);
+    }
+    edge = std::min(1.05 * edge, longest_edge_);
+    for (;;) {
+      reach = radius + 2 * edge;
+      Patch patch = grow_patch(*work_.nodes, core, reach + work_.backend->margin(reach, edge));
+      if (patch.longest_edge <= edge || edge >= longest_edge_) return patch;
+      edge = std::min(1.02 * patch.longest_edge, longest_edge_);
+    }
+  }
+
+  const PatchWork& work_;
+  const StoreResults& store_;
+  const std::vector<double>& extents_;
+  const double longest_edge_;
+  const bool by_nodes_;
+  DirectKernel kernel_;
+  CheckedKernel nodes_;
+  DistanceTable table_;
+  std::vector<float> values_;
+};
+
+}  // namespace
+
+void PatchCounts::add(const PatchCounts& other) {
+  patches += other.patches;
+  pairs += other.pairs;
+  pairs_within += other.pairs_within;
+  without_sample += other.without_sample;
+  table_rows += other.table_rows;
+  table_cpu_seconds += other.table_cpu_seconds;
+  kernel_cpu_seconds += other.kernel_cpu_seconds;
+  nodes.add(other.nodes);
+}
+
+PatchCounts filter_patches(const PatchWork& work, const StoreResults& store,
+                           const std::function<void(double)>& progress) {
+  const NodeMesh& nodes = *work.nodes;
+  std::vector<double> weights(nodes.faces.size());
+  std::vector<bool> is_needed(nodes.nodes.size(), false);
+  CheckedKernel::Size size;
+  size.samples = double(work.sources->samples.size());
+  size.targets = double(work.targets->samples.size());
+  for (Index f = 0; f < weights.size(); ++f) {
+    weights[f] = work.targets->face_offsets[f + 1] - work.targets->face_offsets[f];
+    if (weights[f] == 0) continue;
+    size.area += nodes.face_area(f);
+    for (const Index n : nodes.faces[f]) is_needed[n] = true;
+  }
+  size.nodes = double(std::count(is_needed.begin(), is_needed.end(), true));
+  const bool by_nodes = choose_nodes(work, size);
+  const double sigma = work.kernel.sigma_spatial;
+  const std::vector<std::vector<Index>> cores = partition_faces(
+      nodes, weights,
+      target_weight(size.targets, by_nodes, sigma * sigma * size.targets / size.area));
+
+  const std::vector<double> extents = extents_for(work);
+  tbb::enumerable_thread_specific<PatchFilter> filters(
+      [&] { return PatchFilter(work, by_nodes, extents, store); });
+  // Summed in the end, so that sums don't depend on the threads.
+  std::vector<PatchCounts> counts(cores.size());
+  std::mutex progress_mutex;
+  double done = 0;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, cores.size(), 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        PatchFilter& filter = filters.local();
+        for (std::size_t k = range.begin(); k != range.end(); ++k) {
+          filter.run(cores[k], counts[k]);
+          double weight = 0;
+          for (const Index f : cores[k]) weight += weights[f];
+          const std::lock_guard lock(progress_mutex);
+          done += weight;
+          if (progress) progress(done / size.targets);
+        }
+      },
+      tbb::simple_partitioner());
+
+  PatchCounts sum;
+  for (const PatchCounts& c : counts) sum.add(c);
+  return sum;
+}
+
+double estimate_table_seconds(const PatchWork& work) {
+  const NodeMesh& nodes = *work.nodes;
+  std::vector<bool> needed(nodes.nodes.size(), false);
+  Index face = kNone;
+  for (Index f = 0; f < nodes.faces.size(); ++f) {
+    if (work.targets->face_offsets[f] == work.targets->face_offsets[f + 1]) continue;
+    face = f;
+    for (const Index n : nodes.faces[f]) needed[n] = true;
+  }
+  if (face == kNone) return 0;
+  PatchCounts counts;
+  const StoreResults nothing = [](Index, Index, const float*) {};
+  const std::vector<double> extents = extents_for(work);
+  PatchFilter(work, false, extents, nothing).run({face}, counts);
+  // Nodes between patches are sources of each of them: about a third more.
+  const auto sources = double(std::count(needed.begin(), needed.end(), true)) * 1.3;
+  return counts.table_cpu_seconds / double(std::max<std::uint64_t>(counts.table_rows, 1)) * sources;
+}
+
+}  // namespace onmesh

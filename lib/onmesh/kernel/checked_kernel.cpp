@@ -1,0 +1,283 @@
+#include "onmesh/kernel/checked_kernel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "onmesh/base/random.h"
+
+namespace onmesh {
+namespace {
+
+constexpr std::array kPalettes{16, 32, 64};
+/// Mean squared distance to the palette, in its units, beyond which it is not worth trying: few
+/// such patches are within the default tolerance.
+constexpr double kMostResidual = 0.16;
+constexpr Index kPicked = 64;
+/// Area per node of a regular mesh with unit edges.
+constexpr double kEquilateral = 0.866;
+/// So many of the others with the least support are, too, to see whether more should be.
+constexpr std::size_t kLeastSupported = 64;
+/// Support below which targets are summed directly.
+constexpr float kLittleSupport = 8;
+/// Support below which targets may be doubted, and share of the patch's largest.
+constexpr float kDoubtfulSupport = 200, kDoubtfulShare = 0.2F;
+/// Where more than one in so many targets has little support the nodes may be given up.
+constexpr std::size_t kMostUncertain = 16;
+/// An error of an uncertain target that asks for more direct sums, in tolerances.
+constexpr double kFarOff = 16;
+
+/// The part of a patch that some of its core faces need: they become its core, and its halo all
+/// other faces with a point that may be within the radius of one of theirs. Nodes stay the same.
+Patch narrow(const KernelInput& input, const std::vector<Index>& core, double radius) {
+  const Patch& whole = *input.patch;
+  const DistanceTable& table = *input.table;
+  Patch part;
+  part.nodes = whole.nodes;
+  part.core_nodes = whole.core_nodes;
+  part.core_faces = Index(core.size());
+  const auto add = [&](Index f) {
+    part.faces.push_back(whole.faces[f]);
+    part.corners.push_back(whole.corners[f]);
+    part.lengths.push_back(whole.lengths[f]);
+    for (const double length : whole.lengths[f])
+      part.longest_edge = std::max(part.longest_edge, length);
+  };
+  std::vector<unsigned char> is_core(whole.faces.size(), 0), is_corner(whole.core_nodes, 0);
+  for (const Index f : core) {
+    add(f);
+    is_core[f] = 1;
+    for (const Index n : whole.corners[f]) is_corner[n] = 1;
+  }
+  std::vector<float> nearest(table.columns, kUnreachable);
+  for (Index corner = 0; corner < whole.core_nodes; ++corner) {
+    if (!is_corner[corner]) continue;
+    const float* const row = table.row(corner);
+    for (Index n = 0; n < table.columns; ++n) nearest[n] = std::min(nearest[n], row[n]);
+  }
+  // d^2 = sum_ij a_i b_j D_ij - V(x) - V(y) is at least the smallest entry less both variances,
+  // which are at most a third of the longest edge's square.
+  const double core_variance = part.longest_edge * part.longest_edge / 3;
+  for (Index f = 0; f < whole.faces.size(); ++f) {
+    if (is_core[f]) continue;
+    const auto& n = whole.corners[f];
+    const auto& l = whole.lengths[f];
+    const double longest = std::max({l[0], l[1], l[2]});
+    const double reach = radius * radius * (1 + 1e-4) + core_variance + longest * longest / 3;
+    if (std::min({nearest[n[0]], nearest[n[1]], nearest[n[2]]}) <= reach) add(f);
+  }
+  return part;
+}
+
+}  // namespace
+
+void NodeCheck::add(const NodeCheck& other) {
+  targets += other.targets;
+  direct += other.direct;
+  checked += other.checked;
+  squared_error += other.squared_error;
+  largest_error = std::max(largest_error, other.largest_error);
+  colours = std::max(colours, other.colours);
+  pairs += other.pairs;
+}
+
+CheckedKernel::CheckedKernel(const KernelOptions& options, double tolerance, bool always)
+    : nodes_(options), radius_(options.radius), tolerance_(tolerance), always_(always) {}
+
+void CheckedKernel::pick(const KernelInput& input) {
+  // Where most targets are summed directly there is little to check; then look elsewhere.
+  constexpr std::uint64_t kTries = 8;
+  picked_.clear();
+  for (std::uint64_t t = 0; t < kTries && !support_.empty(); ++t) {
+    pick_at(input, SplitMix(input.patch->faces[0] + (t << 32)).next());
+    const auto checked = std::count_if(picked_.begin(), picked_.end(),
+                                       [&](Index k) { return support_[k] >= kLittleSupport; });
+    if (2 * std::size_t(checked) >= picked_.size()) return;
+  }
+}
+
+void CheckedKernel::pick_at(const KernelInput& input, std::uint64_t random) {
+  picked_.clear();
+  const auto slots = Index(support_.size());
+  const auto at = Index(random % slots);
+  Index first = 0, count = 0;
+  for (Index f = 0; first + count <= at; ++f) {
+    const Index face = input.patch->faces[f];
+    first += count;
+    count = input.targets->face_offsets[face + 1] - input.targets->face_offsets[face];
+  }
+  // Targets of one face lie close together on the surface, which makes their direct sums cheap.
+  // Small faces have too few; there the next ones are as good.
+  const Index step = std::max<Index>(1, count / kPicked);
+  first += Index((random >> 32) % step);
+  for (Index k = first; k < slots && picked_.size() < kPicked; k += step) picked_.push_back(k);
+}
+
+void CheckedKernel::find_doubtful(std::size_t others) {
+  doubtful_.clear();
+  for (Index k = 0; k < support_.size(); ++k)
+    if (support_[k] < doubtful_below_) doubtful_.push_back(k);
+  const auto beyond = std::partition(doubtful_.begin(), doubtful_.end(),
+                                     [&](Index k) { return support_[k] < kLittleSupport; });
+  little_supported_ = std::size_t(beyond - doubtful_.begin());
+  const auto last =
+      beyond + std::min<std::ptrdiff_t>(std::ptrdiff_t(others), doubtful_.end() - beyond);
+  std::partial_sort(beyond, last, doubtful_.end(), [&](Index a, Index b) {
+    return std::pair(support_[a], a) < std::pair(support_[b], b);
+  });
+  doubtful_.erase(last, doubtful_.end());
+}
+
+KernelCounts CheckedKernel::sum_directly(const KernelInput& input, DirectKernel& kernel,
+                                         const std::vector<Index>& targets) {
+  std::vector<unsigned char> is_new(support_.size(), 0);
+  for (const Index k : targets) {
+    if (!is_summed_[k]) is_new[k] = is_summed_[k] = 1;
+  }
+  // The core faces that hold them, and the number of each one's target there and here.
+  std::vector<Index> core, slots;
+  only_.clear();
+  Index first = 0;
+  for (Index f = 0; f < input.patch->core_faces; ++f) {
+    const Index face = input.patch->faces[f];
+    const Index end =
+        first + input.targets->face_offsets[face + 1] - input.targets->face_offsets[face];
+    const auto begin = is_new.begin();
+    if (std::find(begin + first, begin + end, 1) != begin + end) {
+      core.push_back(f);
+      only_.insert(only_.end(), begin + first, begin + end);
+      for (Index k = first; k < end; ++k) slots.push_back(k);
+    }
+    first = end;
+  }
+  if (core.empty()) return {};
+  const Patch patch = narrow(input, core, radius_);
+  KernelInput some = input;
+  some.patch = &patch;
+  some.only = &only_;
+  const KernelCounts counts = kernel.run(some, some_sums_);
+  const auto channels = std::size_t(input.colours.channels);
+  sums_.resize(support_.size() * channels);
+  for (std::size_t k = 0; k < slots.size(); ++k) {
+    if (only_[k]) std::copy_n(&some_sums_[k * channels], channels, &sums_[slots[k] * channels]);
+  }
+  return counts;
+}
+
+double CheckedKernel::measure(const KernelInput& input, NodeCheck& check) const {
+  const auto channels = std::size_t(input.colours.channels);
+  check.squared_error = 0;
+  check.largest_error = 0;
+  check.checked = 0;
+  for (const Index k : picked_) {
+    // Those with less are summed directly.
+    if (support_[k] < kLittleSupport) continue;
+    for (std::size_t c = 0; c < channels; ++c) {
+      const double error = std::abs(double(values_[k * channels + c]) - sums_[k * channels + c]);
+      check.squared_error += error * error;
+      check.largest_error = std::max(check.largest_error, error);
+      ++check.checked;
+    }
+  }
+  if (check.checked == 0) return std::numeric_limits<double>::infinity();
+  return std::sqrt(check.squared_error / double(check.checked));
+}
+
+void CheckedKernel::settle_uncertain(const KernelInput& input, DirectKernel& kernel,
+                                     KernelCounts& counts, NodeCheck& check) {
+  const auto channels = std::size_t(input.colours.channels);
+  // Where some of the least supported are far off, look at more of them, until the last are not.
+  std::size_t judged = 0;
+  for (std::size_t others = kLeastSupported;; others *= 4) {
+    find_doubtful(others);
+    const KernelCounts more = sum_directly(input, kernel, doubtful_);
+    counts.pairs += more.pairs;
+    counts.without_sample += more.without_sample;
+    check.direct = little_supported_ + judged;
+    double largest = 0;
+    for (std::size_t i = little_supported_ + judged; i < doubtful_.size(); ++i) {
+      const std::size_t first = doubtful_[i] * channels;
+      for (std::size_t v = first; v < first + channels; ++v)
+        largest = std::max(largest, std::abs(double(sums_[v]) - values_[v]));
+    }
+    check.largest_error = std::max(check.largest_error, largest);
+    judged = doubtful_.size() - little_supported_;
+    if (largest <= kFarOff * tolerance_ || judged < others) break;
+  }
+  for (Index k = 0; k < is_summed_.size(); ++k) {
+    if (!is_summed_[k]) continue;
+    for (std::size_t v = k * channels; v < (k + 1) * channels; ++v) values_[v] = sums_[v];
+  }
+}
+
+KernelCounts CheckedKernel::sum_first(const KernelInput& input, DirectKernel& kernel,
+                                      NodeCheck& check) {
+  pick(input);
+  doubtful_below_ = kDoubtfulSupport;
+  for (const float support : support_)
+    doubtful_below_ = std::max(doubtful_below_, kDoubtfulShare * support);
+  is_summed_.assign(support_.size(), 0);
+  std::vector<Index> first = picked_;
+  // One pass over the samples serves both checks, unless so much is uncertain that the nodes may
+  // well be given up.
+  find_doubtful(kLeastSupported);
+  if (little_supported_ <= support_.size() / kMostUncertain)
+    first.insert(first.end(), doubtful_.begin(), doubtful_.end());
+  const KernelCounts counts = sum_directly(input, kernel, first);
+  const auto summed = std::count(is_summed_.begin(), is_summed_.end(), 1);
+  check.targets = support_.size();
+  check.pairs =
+      double(counts.pairs) / double(std::max<std::ptrdiff_t>(summed, 1)) * double(support_.size());
+  return counts;
+}
+
+bool CheckedKernel::run(const KernelInput& input, DirectKernel& kernel, std::vector<float>& out,
+                        KernelCounts& counts, NodeCheck& check) {
+  if (!nodes_.load(input)) return false;
+  check = {};
+  std::size_t palette = 0;
+  while (nodes_.choose_palette(kPalettes[palette]) > kMostResidual &&
+         palette + 1 < kPalettes.size()) {
+    ++palette;
+  }
+  check.colours = nodes_.evaluate(values_, support_);
+  counts = sum_first(input, kernel, check);
+  while (measure(input, check) > tolerance_) {
+    if (palette + 1 == kPalettes.size() || check.colours < kPalettes[palette]) {
+      if (!always_) return false;
+      break;
+    }
+    nodes_.choose_palette(kPalettes[++palette]);
+    check.colours = nodes_.evaluate(values_, support_);
+  }
+  settle_uncertain(input, kernel, counts, check);
+  out.swap(values_);
+  return true;
+}
+
+double CheckedKernel::subnode_spacing(const Size& size, const KernelOptions& options) {
+  // Nodes are as far apart as the sides of equilateral faces are long.
+  const double spacing = std::sqrt(size.area / (size.nodes * kEquilateral));
+  return NodeKernel::halves(spacing, options.sigma_spatial) ? spacing / 4 : spacing / 2;
+}
+
+double CheckedKernel::cost_of_nodes(const Size& size, const KernelOptions& options, int channels) {
+  // Measured by bench_kernel.
+  const double planes = 1 + channels, colours = options.sigma_range > 0 ? kPalettes[0] : 1;
+  const double disc = std::numbers::pi * options.radius * options.radius;
+  const double spacing = subnode_spacing(size, options);
+  const double subnodes = size.area / (spacing * spacing * kEquilateral);
+  const double pairs = subnodes * std::min(1.0, disc / size.area) * subnodes;
+  return pairs * (4 + 0.02 * planes * colours) +
+         (size.samples + size.targets) * (25 + 0.3 * planes * colours);
+}
+
+double CheckedKernel::cost_of_sums(const Size& size, const KernelOptions& options) {
+  const double disc = std::numbers::pi * options.radius * options.radius;
+  return 0.6 * size.targets * std::min(1.0, disc / size.area) * size.samples;
+}
+
+}  // namespace onmesh

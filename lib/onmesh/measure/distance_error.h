@@ -1,0 +1,52 @@
+// How wrong distances are, and the exact ones to tell it by.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "onmesh/distance/backend.h"
+
+namespace onmesh {
+
+/// The back ends that comparisons show side by side.
+inline constexpr std::array kComparedMethods{DistanceMethod::unfold, DistanceMethod::heat,
+                                             DistanceMethod::cloud};
+
+/// Errors over the points whose exact distance is known.
+struct DistanceError {
+  std::size_t points = 0;             ///< compared
+  std::size_t missed = 0;             ///< with an exact distance, but no other
+  std::size_t leaked = 0;             ///< with a distance although no way leads there
+  double mean = 0, p99 = 0, max = 0;  ///< of |d - exact|, mesh units, over the points compared
+  /// Error of the Gaussian weights g(d) = exp(-d^2 / 2 sigma^2): the sum of |g(d) - g(exact)| over
+  /// the sum of g(exact), so the share of a kernel's weight that is wrong. Where no way leads, the
+  /// weight is 0. NaN without a sigma.
+  double weight = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Compare distances point by point. NaN = not known, infinity = no way leads there; an exact
+/// distance that is not known leaves the point out, another's counts as none.
+/// \param sigma of the Gaussian weights, mesh units, > 0; infinity = none
+/// \pre both have the same size
+DistanceError distance_error(const std::vector<double>& exact, const std::vector<double>& other,
+                             double sigma = std::numeric_limits<double>::infinity());
+
+/// Exact distances up to a radius. The exact algorithm knows no radius, so the mesh is cut down to
+/// what paths of that length can touch, anew for each source. Queries may run in parallel.
+class NearbyGeodesics {
+ public:
+  /// Keeps a reference to the mesh. \param radius mesh units, > 0; may be infinite
+  NearbyGeodesics(const TriangleMesh& mesh, double radius);
+  /// NaN beyond the radius and where no way leads.
+  /// \throw InputError if the mesh is not manifold near the source
+  std::vector<double> distances(const SurfacePoint& source,
+                                const std::vector<SurfacePoint>& targets) const;
+
+ private:
+  const TriangleMesh& mesh_;
+  double radius_;
+  NodeMesh complex_;
+};
+
+}  // namespace onmesh

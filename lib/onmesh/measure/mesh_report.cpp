@@ -1,0 +1,256 @@
+#include "onmesh/measure/mesh_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "onmesh/atlas/uv_overlap.h"
+#include "onmesh/mesh/edge_table.h"
+
+namespace onmesh {
+namespace {
+
+/// Number the sets of `roots` in the order of their first face; kNone stays.
+std::vector<Index> number_roots(std::vector<Index> roots, Index& count) {
+  Index highest = 0;
+  for (const Index root : roots) {
+    if (root != kNone) highest = std::max(highest, root);
+  }
+  std::vector<Index> number(std::size_t{highest} + 1, kNone);
+  count = 0;
+  for (Index& root : roots) {
+    if (root == kNone) continue;
+    if (number[root] == kNone) number[root] = count++;
+    root = number[root];
+  }
+  return roots;
+}
+
+/// The UV index that a face has at a vertex.
+Index uv_at(const TriangleMesh& mesh, Index face, Index vertex) {
+  const auto& f = mesh.faces[face];
+  const std::size_t k = f[0] == vertex ? 0 : f[1] == vertex ? 1 : 2;
+  return mesh.face_uvs[face][k];
+}
+
+void count_edges(const EdgeTable& edges, MeshReport& r) {
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const std::size_t sides = edges.sides(e).size();
+    r.boundary_edges += sides == 1;
+    r.nonmanifold_edges += sides > 2;
+    r.inconsistent_edges += edges.inconsistent(e);
+  }
+}
+
+void find_components(const TriangleMesh& mesh, MeshReport& r) {
+  DisjointSets vertices(mesh.positions.size());
+  for (const auto& f : mesh.faces) {
+    vertices.join(f[0], f[1]);
+    vertices.join(f[0], f[2]);
+  }
+  std::vector<Index> roots;
+  roots.reserve(mesh.faces.size());
+  for (const auto& f : mesh.faces) roots.push_back(vertices.find(f[0]));
+  r.component_of_face = number_roots(std::move(roots), r.components);
+}
+
+void find_charts(const TriangleMesh& mesh, const EdgeTable& edges, MeshReport& r) {
+  struct Side {
+    std::array<Index, 2> uvs;
+    Index face;
+  };
+  DisjointSets charts(mesh.faces.size());
+  std::vector<Side> around;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto [a, b] = edges.vertices(e);
+    around.clear();
+    for (const EdgeSide& s : edges.sides(e)) {
+      if (!mesh.has_uvs(s.face)) continue;
+      around.push_back({{uv_at(mesh, s.face, a), uv_at(mesh, s.face, b)}, s.face});
+    }
+    if (around.size() > 2) {
+      std::sort(around.begin(), around.end(),
+                [](const Side& x, const Side& y) { return x.uvs < y.uvs; });
+    }
+    for (std::size_t i = 1; i < around.size(); ++i) {
+      if (around[i].uvs == around[i - 1].uvs) charts.join(around[i].face, around[i - 1].face);
+    }
+  }
+  std::vector<Index> roots(mesh.faces.size(), kNone);
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    if (mesh.has_uvs(f) && !has_repeated_vertex(mesh.faces[f])) roots[f] = charts.find(f);
+  }
+  r.chart_of_face = number_roots(std::move(roots), r.charts);
+}
+
+/// Boundary edges that meet in the same fan follow each other on a loop; at a bow tie several loops
+/// pass through one vertex.
+Index count_boundary_loops(const TriangleMesh& mesh, const EdgeTable& edges, DisjointSets fans) {
+  std::vector<Index> corners;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges.sides(e).size() != 1) continue;
+    const auto [a, b] = edges.vertices(e);
+    const EdgeSide& side = edges.sides(e)[0];
+    corners.push_back(corner_at(mesh, side, a));
+    fans.join(corners.back(), corner_at(mesh, side, b));
+  }
+  for (Index& corner : corners) corner = fans.find(corner);
+  std::sort(corners.begin(), corners.end());
+  return static_cast<Index>(std::unique(corners.begin(), corners.end()) - corners.begin());
+}
+
+void measure_uvs(const TriangleMesh& mesh, MeshReport& r) {
+  struct Density {
+    double value, area;
+  };
+  std::vector<Density> densities;
+  double total = 0;
+  bool first = true;
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    if (!mesh.has_uvs(f)) {
+      ++r.faces_without_uvs;
+      continue;
+    }
+    const auto c = mesh.corner_uvs(f);
+    for (const Vec2& uv : c) {
+      r.uv_min = first ? uv : Vec2(r.uv_min.cwiseMin(uv));
+      r.uv_max = first ? uv : Vec2(r.uv_max.cwiseMax(uv));
+      first = false;
+    }
+    const double uv = mesh.uv_area(f), area = mesh.face_area(f);
+    if (uv == 0) ++r.degenerate_uvs;
+    if (uv < 0) ++r.mirrored_faces;
+    const double density = std::sqrt(std::abs(uv) / area);
+    if (uv == 0 || !(area > 0) || mesh.is_degenerate(f) || !std::isfinite(density)) continue;
+    densities.push_back({density, area});
+    total += area;
+  }
+  if (densities.empty()) return;
+  std::sort(densities.begin(), densities.end(),
+            [](const Density& a, const Density& b) { return a.value < b.value; });
+  const auto quantile = [&](double share) {
+    double sum = 0;
+    for (const Density& d : densities) {
+      sum += d.area;
+      if (sum >= share * total) return d.value;
+    }
+    return densities.back().value;
+  };
+  r.density_min = quantile(0.01);
+  r.density_max = quantile(0.99);
+}
+
+std::string count_of(Index count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  std::array<char, 256> buffer;
+  std::snprintf(buffer.data(), buffer.size(), pattern, values...);
+  return buffer.data();
+}
+
+}  // namespace
+
+MeshReport classify(const TriangleMesh& welded) {
+  MeshReport r;
+  r.vertices = static_cast<Index>(welded.positions.size());
+  r.faces = static_cast<Index>(welded.faces.size());
+  r.diagonal = welded.diagonal();
+  for (Index f = 0; f < r.faces; ++f) {
+    r.surface_area += welded.face_area(f);
+    if (welded.is_degenerate(f)) ++r.degenerate_faces;
+  }
+  for (const Index first : earlier_copies(welded)) r.duplicate_faces += first != kNone;
+  const EdgeTable edges(welded);
+  count_edges(edges, r);
+  find_components(welded, r);
+  find_charts(welded, edges, r);
+  DisjointSets fans = join_fans(welded, edges);
+  r.boundary_loops = count_boundary_loops(welded, edges, fans);
+  for (const Index count : count_fans(welded, fans)) r.nonmanifold_vertices += count > 1;
+  r.orientable = consistent_winding(welded, edges).conflict == kNone;
+  measure_uvs(welded, r);
+  const UvOverlap overlap = estimate_overlap(welded);
+  r.overlap_share = overlap.share;
+  r.max_overlap = overlap.deepest;
+  return r;
+}
+
+std::vector<std::string> advice(const MeshReport& r) {
+  std::vector<std::string> lines;
+  if (r.nonmanifold_edges > 0) {
+    lines.push_back(count_of(r.nonmanifold_edges, "edge has", "edges have") +
+                    " three or more faces: the filter goes on into each of them; split "
+                    " or remove the extra faces if they are not meant to be there");
+  }
+  if (r.nonmanifold_vertices > 0) {
+    lines.push_back(
+        count_of(r.nonmanifold_vertices, "vertex joins", "vertices join") +
+        " parts of the surface that share no edge there: the filter goes on through it; give each "
+        "part a vertex of its own if they should be apart");
+  }
+  if (!r.orientable) {
+    lines.push_back(
+        "part of the surface has only one side, like a Moebius strip: it is filtered as it is, "
+        "but normals cannot agree on it; cut it open along a line of edges if that is not meant");
+  } else if (r.inconsistent_edges > 0) {
+    lines.push_back(
+        count_of(r.inconsistent_edges, "edge has", "edges have") +
+        " faces of opposite winding: turn over the smaller part (filtering does so by itself)");
+  }
+  if (r.degenerate_faces > 0) {
+    lines.push_back(
+        count_of(r.degenerate_faces, "face has", "faces have") +
+        " no area and cannot carry texture: remove them if they are not meant to be there");
+  }
+  if (r.duplicate_faces > 0) {
+    lines.push_back(
+        count_of(r.duplicate_faces, "face repeats", "faces repeat") +
+        " an earlier one, like the back of two-sided cloth: those with UVs of their own are "
+        "filtered as sheets of their own, the others are left out");
+  }
+  const Index textured = r.faces - r.faces_without_uvs;
+  if (textured == 0) {
+    lines.push_back("no face has UVs: unwrap the mesh before filtering a texture on it");
+    return lines;
+  }
+  if (r.faces_without_uvs > 0) {
+    lines.push_back(count_of(r.faces_without_uvs, "face has", "faces have") +
+                    " no UVs: they are part of the surface but carry no texture");
+  }
+  if (r.degenerate_uvs > 0) {
+    lines.push_back(
+        count_of(r.degenerate_uvs, "face has", "faces have") +
+        " UVs without area, which give it no texels: unwrap them again if they should be filtered");
+  }
+  if (r.mirrored_faces > 0 && r.mirrored_faces + r.degenerate_uvs < textured) {
+    lines.push_back(count_of(r.mirrored_faces, "face has", "faces have") +
+                    " mirrored UVs: harmless for filtering, but check that texts and normal maps "
+                    "are meant to be so");
+  }
+  if (r.overlap_share > 0.001) {
+    lines.push_back(format(
+        "%.1f %% of the atlas is used more than once (up to %u times): one texel cannot hold two "
+        "results, so give each part its own place or accept their average",
+        100 * r.overlap_share, r.max_overlap));
+  }
+  // A thousandth of a tile outside is a modelling program's padding, not tiling.
+  if (r.uv_min.minCoeff() < -0.001 || r.uv_max.maxCoeff() > 1.001) {
+    lines.push_back(format(
+        "UVs leave [0,1] (%.4g..%.4g x %.4g..%.4g): they repeat the texture; choose another wrap "
+        "mode, or split UDIM tiles, if that is not meant",
+        r.uv_min.x(), r.uv_max.x(), r.uv_min.y(), r.uv_max.y()));
+  }
+  if (r.density_max > 4 * r.density_min) {
+    lines.push_back(format(
+        "texel density varies %.3g-fold: the filter is right everywhere, but coarse parts may have "
+        "too few texels for a small sigma",
+        r.density_max / r.density_min));
+  }
+  return lines;
+}
+
+}  // namespace onmesh

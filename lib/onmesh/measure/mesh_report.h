@@ -1,0 +1,51 @@
+// What is wrong, or special, about a mesh and its atlas.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "onmesh/mesh/triangle_mesh.h"
+
+namespace onmesh {
+
+/// Counts over a welded mesh. All faces are those of the mesh given, nothing is repaired.
+struct MeshReport {
+  Index vertices = 0, faces = 0;
+  Index components = 0;  ///< parts that share no vertex
+  Index boundary_edges = 0, boundary_loops = 0;
+  Index nonmanifold_edges = 0;     ///< edges with three or more faces
+  Index nonmanifold_vertices = 0;  ///< vertices whose faces form more than one fan (bow ties)
+  Index inconsistent_edges = 0;    ///< edges whose two faces run along them in the same direction
+  bool orientable = true;          ///< every component can be wound consistently
+  Index degenerate_faces = 0;      ///< repeated vertex or no area (relative to its longest edge)
+  Index duplicate_faces = 0;       ///< same three vertices as an earlier face, either way round
+  Index faces_without_uvs = 0;     ///< some corner has no UV
+  Index degenerate_uvs = 0;        ///< UVs present, but the UV triangle has no area
+  Index mirrored_faces = 0;        ///< UV triangle runs clockwise
+  Index charts = 0;                ///< components connected over edges with equal UVs on both sides
+  double surface_area = 0, diagonal = 0;
+  /// Texel density: square root of UV area over surface area, in 1 / mesh unit; the 1 % and 99 %
+  /// quantiles by surface area over faces that have both areas (0 if there are none). A texture W
+  /// texels wide has W times as many texels per mesh unit.
+  double density_min = 0, density_max = 0;
+  /// Share of the covered UV area that more than one face of the same texture claims, after
+  /// wrapping into one tile, and how many claim the same spot at most. Estimated: see
+  /// estimate_overlap().
+  double overlap_share = 0;
+  Index max_overlap = 0;
+  Vec2 uv_min = Vec2::Zero(), uv_max = Vec2::Zero();
+  std::vector<Index> component_of_face;
+  std::vector<Index> chart_of_face;  ///< kNone where UVs are missing or a vertex is repeated
+
+  /// No non-manifold edge or vertex, orientable. (clean() may still mend what this counts.)
+  bool manifold() const {
+    return nonmanifold_edges == 0 && nonmanifold_vertices == 0 && orientable;
+  }
+};
+
+MeshReport classify(const TriangleMesh& welded);
+
+/// The report's findings that a user should act on, one sentence each with what to do.
+std::vector<std::string> advice(const MeshReport& report);
+
+}  // namespace onmesh

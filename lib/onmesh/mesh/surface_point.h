@@ -1,0 +1,14 @@
+// The currency between stages: a place on a triangle mesh.
+#pragma once
+
+#include "onmesh/base/types.h"
+
+namespace onmesh {
+
+/// A point on a triangle mesh: a face and barycentric coordinates that sum to 1.
+struct SurfacePoint {
+  Index face = kNone;
+  Vec3 barycentric = Vec3::Zero();
+};
+
+}  // namespace onmesh

@@ -1,0 +1,40 @@
+// Polygons as files hold them, on their way to a TriangleMesh.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "onmesh/mesh/triangle_mesh.h"
+
+namespace onmesh {
+
+/// What a reader collects: positions, UVs and materials in `mesh`, faces as polygons beside it.
+struct PolygonMesh {
+  TriangleMesh mesh;                     ///< without faces
+  std::vector<Index> corners;            ///< into mesh.positions, all polygons one after the other
+  std::vector<Index> corner_uvs;         ///< into mesh.uvs, one per corner; kNone = none
+  std::vector<std::size_t> polygon_end;  ///< one past each polygon's last corner
+  std::vector<Index> polygon_materials;  ///< one per polygon
+
+  void add_corner(Index position, Index uv) {
+    corners.push_back(position);
+    corner_uvs.push_back(uv);
+  }
+  void end_polygon(Index material) {
+    polygon_end.push_back(corners.size());
+    polygon_materials.push_back(material);
+  }
+};
+
+/// Triangles in the order of the polygons; corners keep their UVs.
+/// \pre every polygon has at least three corners, all within the positions and UVs
+/// \throw InputError naming `file` if there are no faces or more elements than an Index can count
+TriangleMesh triangulate(PolygonMesh polygons, const std::string& file);
+
+/// The path of a texture as a material file writes it: relative to `folder`, with either kind of
+/// slash, perhaps an absolute path of another machine (then the file's bare name is tried). The
+/// first that exists, else the plain reading.
+std::string find_texture(std::string name, const std::string& folder);
+
+}  // namespace onmesh

@@ -1,0 +1,251 @@
+// Wavefront OBJ with its material files.
+#include <algorithm>
+#include <cctype>
+#include <system_error>
+#include <unordered_map>
+
+#include "onmesh/base/error.h"
+#include "onmesh/base/file_io.h"
+#include "onmesh/base/text_scan.h"
+#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh_io/polygon_mesh.h"
+
+namespace onmesh {
+namespace fs = std::filesystem;
+namespace {
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+/// The file name behind the options of a `map_Kd` line; options that take up to three numbers end
+/// at the first token that is none, but never take the line's last token.
+std::string_view texture_name(std::string_view line) {
+  static const std::unordered_map<std::string, int> arguments = {
+      {"-blendu", 1}, {"-blendv", 1},     {"-boost", 1},   {"-bm", 1}, {"-cc", 1},
+      {"-clamp", 1},  {"-colorspace", 1}, {"-imfchan", 1}, {"-mm", 2}, {"-texres", 1},
+      {"-type", 1},   {"-o", 3},          {"-s", 3},       {"-t", 3}};
+  const auto split = [](std::string_view text) {
+    const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
+    const std::size_t next = std::min(text.find_first_not_of(" \t", end), text.size());
+    return std::pair{text.substr(0, end), text.substr(next)};
+  };
+  while (line.starts_with('-')) {
+    auto [option, rest] = split(line);
+    const auto known = arguments.find(lower(option));
+    if (known == arguments.end() || rest.empty()) break;  // a name that starts with a dash
+    const bool optional = known->second == 3;
+    for (int i = 0; i < known->second; ++i) {
+      const auto [argument, behind] = split(rest);
+      double value = 0;
+      if (behind.empty() || (optional && !parse_number(argument, value))) break;
+      rest = behind;
+    }
+    line = rest;
+  }
+  return line;
+}
+
+class ObjReader {
+ public:
+  ObjReader(const fs::path& path, const std::string& content, std::vector<std::string>* warnings)
+      : path_(path),
+        scan_(content, path.string(), Syntax::comments_continuations),
+        warnings_(warnings) {
+    if (content.find('\0') != std::string::npos) {
+      throw InputError(path.string() + ": is a binary file, not an OBJ");
+    }
+    // About what the fewest bytes per element allow; growing would touch the memory twice.
+    out_.mesh.positions.reserve(content.size() / 64);
+    out_.corners.reserve(content.size() / 16);
+    out_.corner_uvs.reserve(content.size() / 16);
+  }
+
+  TriangleMesh run() {
+    for (; !scan_.at_end(); scan_.next_line()) {
+      const std::string_view keyword = scan_.token();
+      if (keyword == "v") {
+        read_position();
+      } else if (keyword == "vt") {
+        read_uv();
+      } else if (keyword == "f" || keyword == "fo") {
+        read_face();
+      } else if (keyword == "usemtl") {
+        const std::string_view name = scan_.rest_of_line();
+        material_ = name.empty() ? kNone : material(name);
+      } else if (keyword == "mtllib") {
+        libraries_.emplace_back(scan_.rest_of_line());
+      }
+    }
+    check_forward_references();
+    read_libraries();
+    drop_missing_uvs();
+    return triangulate(std::move(out_), path_.string());
+  }
+
+ private:
+  void warn(const std::string& text) {
+    if (warnings_) warnings_->push_back(path_.string() + ": " + text);
+  }
+
+  void read_position() {
+    Vec3 p;
+    for (int i = 0; i < 3; ++i) p[i] = scan_.finite("coordinate");
+    // A weight and vertex colours may follow.
+    while (scan_.skip_blank()) scan_.number("value behind the coordinates");
+    out_.mesh.positions.push_back(p);
+  }
+
+  void read_uv() {
+    Vec2 uv(scan_.number("texture coordinate"), 0);
+    if (scan_.skip_blank()) uv.y() = scan_.number("texture coordinate");
+    if (scan_.skip_blank()) scan_.number("texture coordinate");
+    if (!uv.allFinite()) ++missing_uvs_;
+    out_.mesh.uvs.push_back(uv);
+  }
+
+  /// One reference of a face corner; moves `text` behind it.
+  /// \return the number counted from 0; kNone if there is none before the slash
+  Index reference(std::string_view& text, std::size_t count, bool is_uv) {
+    const char* const begin = text.data();
+    const char* const end = begin + text.size();
+    if (begin == end || *begin == '/') return kNone;
+    long long value = 0;
+    const auto [last, error] = std::from_chars(*begin == '+' ? begin + 1 : begin, end, value);
+    const char* const what = is_uv ? "texture coordinate" : "vertex";
+    if (error == std::errc::invalid_argument || (last != end && *last != '/')) {
+      scan_.fail(std::string("face corner is not a number: ") + quote(text));
+    }
+    text.remove_prefix(static_cast<std::size_t>(last - begin));
+    if (value == 0) scan_.fail(std::string(what) + " index 0 (indices start at 1)");
+    const long long index = value < 0 ? static_cast<long long>(count) + value : value - 1;
+    if (error != std::errc() || index < 0 || index >= kNone) {
+      scan_.fail(std::string(what) + " index " + std::to_string(value) + " is out of range (" +
+                 std::to_string(count) + " so far)");
+    }
+    if (index >= static_cast<long long>(count)) {
+      forward_.push_back({scan_.line(), static_cast<Index>(index), is_uv});
+    }
+    return static_cast<Index>(index);
+  }
+
+  void read_face() {
+    std::size_t count = 0;
+    for (std::string_view corner = scan_.token(); !corner.empty();
+         corner = scan_.token(), ++count) {
+      const std::string_view whole = corner;
+      const Index position = reference(corner, out_.mesh.positions.size(), false);
+      Index uv = kNone;
+      if (!corner.empty()) {
+        corner.remove_prefix(1);
+        uv = reference(corner, out_.mesh.uvs.size(), true);
+      }
+      if (position == kNone) scan_.fail("face corner without a vertex: " + quote(whole));
+      // Whatever follows the second slash is a normal, which nothing here uses.
+      out_.add_corner(position, uv);
+    }
+    if (count < 3) {
+      scan_.fail("a face needs at least 3 corners, here are " + std::to_string(count));
+    }
+    out_.end_polygon(material_);
+  }
+
+  Index material(std::string_view name) {
+    const auto [found, added] = material_by_name_.try_emplace(
+        std::string(name), static_cast<Index>(out_.mesh.materials.size()));
+    if (added) out_.mesh.materials.push_back({std::string(name), {}});
+    return found->second;
+  }
+
+  /// Faces may come before the vertices they refer to, as long as those come at all.
+  void check_forward_references() const {
+    for (const Forward& f : forward_) {
+      const std::size_t count = f.is_uv ? out_.mesh.uvs.size() : out_.mesh.positions.size();
+      if (f.index < count) continue;
+      scan_.fail_at(f.line, std::string(f.is_uv ? "texture coordinate" : "vertex") + " index " +
+                                std::to_string(std::size_t{f.index} + 1) + " is out of range (" +
+                                std::to_string(count) + " in all)");
+    }
+  }
+
+  /// One bad UV must not cost the whole mesh: its corners count as having none.
+  void drop_missing_uvs() {
+    if (missing_uvs_ == 0) return;
+    for (Index& uv : out_.corner_uvs) {
+      if (uv != kNone && !out_.mesh.uvs[uv].allFinite()) uv = kNone;
+    }
+    for (Vec2& uv : out_.mesh.uvs) {
+      if (!uv.allFinite()) uv.setZero();
+    }
+    warn(std::to_string(missing_uvs_) + " texture coordinates are not finite and count as missing");
+  }
+
+  void read_libraries() {
+    const fs::path folder = path_.parent_path();
+    const auto locate = [&](std::string name) {
+      std::error_code ignored;
+      if (!fs::exists(folder / name, ignored)) std::replace(name.begin(), name.end(), '\\', '/');
+      return folder / name;
+    };
+    for (const std::string& line : libraries_) {
+      std::error_code ignored;
+      if (fs::exists(locate(line), ignored)) {
+        read_library(locate(line));
+        continue;
+      }
+      // Not one name with spaces, so several names.
+      TextScan names(line, path_.string(), Syntax::plain);
+      while (names.skip_blank()) read_library(locate(std::string(names.token())));
+    }
+  }
+
+  void read_library(const fs::path& path) {
+    std::string content;
+    try {
+      content = read_file(path);
+    } catch (const FileError& error) {
+      warn(std::string("material file ignored: ") + error.what());
+      return;
+    }
+    TextScan scan(content, path.string(), Syntax::comments_continuations);
+    const fs::path folder = path.parent_path();
+    Material* current = nullptr;
+    for (; !scan.at_end(); scan.next_line()) {
+      const std::string keyword = lower(scan.token());
+      if (keyword == "newmtl") {
+        const auto used = material_by_name_.find(std::string(scan.rest_of_line()));
+        current = used == material_by_name_.end() ? nullptr : &out_.mesh.materials[used->second];
+      } else if (keyword == "map_kd" && current && current->texture.empty()) {
+        current->texture =
+            find_texture(std::string(texture_name(scan.rest_of_line())), folder.string());
+      }
+    }
+  }
+
+  struct Forward {
+    std::size_t line;
+    Index index;
+    bool is_uv;
+  };
+
+  fs::path path_;
+  TextScan scan_;
+  std::vector<std::string>* warnings_;
+  PolygonMesh out_;
+  std::vector<Forward> forward_;
+  std::vector<std::string> libraries_;
+  std::unordered_map<std::string, Index> material_by_name_;
+  Index material_ = kNone;
+  std::size_t missing_uvs_ = 0;
+};
+
+}  // namespace
+
+TriangleMesh read_obj(const fs::path& path, const std::string& content,
+                      std::vector<std::string>* warnings) {
+  return ObjReader(path, content, warnings).run();
+}
+
+}  // namespace onmesh

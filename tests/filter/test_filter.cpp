@@ -1,0 +1,502 @@
+#include "onmesh/filter/filter.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "onmesh/base/error.h"
+#include "onmesh/procedural/shapes.h"
+#include "onmesh/procedural/texture.h"
+#include "support/recut_atlas.h"
+
+namespace onmesh {
+namespace {
+
+FilterOptions options_for(FilterKind kind, double sigma_texels) {
+  FilterOptions options;
+  options.kind = kind;
+  options.sigma_spatial = {sigma_texels, Length::Unit::texel};
+  options.sigma_range = 0.2;
+  return options;
+}
+
+bool same_values(const Image& a, const Image& b) {
+  return a.pixels.size() == b.pixels.size() &&
+         std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
+}
+
+double decibels(double squares, std::size_t count) {
+  return 10 * std::log10(double(count) / std::max(squares, 1e-300));
+}
+
+/// Over the texels that the mesh covers.
+double psnr(const TriangleMesh& mesh, const Image& a, const Image& b) {
+  REQUIRE(a.pixels.size() == b.pixels.size());
+  const TexelMap map = make_texel_map(mesh, a.width, a.height);
+  double squares = 0;
+  std::size_t count = 0;
+  for (Index t = 0; t < map.coverage.size(); ++t) {
+    if (map.coverage[t] != Coverage::covered) continue;
+    for (int c = 0; c < a.channels; ++c, ++count) {
+      squares += std::pow(double(a.texel(t)[c]) - b.texel(t)[c], 2);
+    }
+  }
+  REQUIRE(count > 0);
+  return decibels(squares, count);
+}
+
+/// The filter by its definition, in double, on a mesh in the xy plane without holes: geodesic
+/// distances are straight. Only every `step`th texel. \return dB
+double against_brute_force(const TriangleMesh& mesh, const Image& texture, const Image& result,
+                           FilterKind kind, double sigma, double sigma_range, Index step) {
+  struct Point {
+    Index texel;
+    Vec3 at;
+    double area;
+  };
+  const TexelMap map = make_texel_map(mesh, texture.width, texture.height);
+  std::vector<Point> points;
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    for (Index k = map.face_offsets[f]; k < map.face_offsets[f + 1]; ++k) {
+      const SurfacePoint p{f, map.barycentric(f, map.claims[k])};
+      points.push_back({map.texel(map.claims[k]), mesh.position(p), map.texel_area[f]});
+    }
+  }
+  const double radius = sigma * (kind == FilterKind::bilateral ? 2.5 : 3.0);
+  double squares = 0;
+  std::size_t count = 0;
+  for (std::size_t x = 0; x < points.size(); x += step) {
+    const float* const own = texture.texel(points[x].texel);
+    std::vector<double> sum(std::size_t(texture.channels), 0);
+    double weights = 0;
+    for (const Point& y : points) {
+      const double d2 = (y.at - points[x].at).squaredNorm();
+      if (d2 > radius * radius * (1 + 1e-5)) continue;
+      const float* const colour = texture.texel(y.texel);
+      double c2 = 0;
+      for (int c = 0; c < texture.channels; ++c) c2 += std::pow(double(colour[c]) - own[c], 2);
+      double exponent = d2 / (2 * sigma * sigma);
+      if (kind == FilterKind::bilateral) exponent += c2 / (2 * sigma_range * sigma_range);
+      const double w = y.area * std::exp(-exponent);
+      weights += w;
+      for (int c = 0; c < texture.channels; ++c) sum[std::size_t(c)] += w * colour[c];
+    }
+    for (int c = 0; c < texture.channels; ++c, ++count) {
+      squares += std::pow(sum[std::size_t(c)] / weights - result.texel(points[x].texel)[c], 2);
+    }
+  }
+  REQUIRE(count > 0);
+  return decibels(squares, count);
+}
+
+Image noise_image(int width, int height, int channels = 3) {
+  return make_texture(width, height, Pattern::checker, 0.3, 7, channels);
+}
+
+TEST_CASE("a constant texture stays constant", "[filter]") {
+  FilterOptions options = options_for(GENERATE(FilterKind::bilateral, FilterKind::gaussian), 3);
+  options.samples = GENERATE(SampleKind::texel, SampleKind::poisson);
+  Image texture = make_image(96, 72, 3);
+  for (std::size_t k = 0; k < texture.pixels.size(); ++k) {
+    texture.pixels[k] = k % 3 == 0 ? 0.3F : k % 3 == 1 ? 0.7F : 0.1F;
+  }
+  CHECK(same_values(filter(make_cube(), texture, options), texture));
+}
+
+TEST_CASE("the result stays within the texture's range", "[filter]") {
+  const TriangleMesh mesh = make_sphere(2);
+  const Image texture = noise_image(128, 128);
+  const Image result = filter(mesh, texture, options_for(FilterKind::bilateral, 3));
+  for (int c = 0; c < 3; ++c) {
+    float low = 2, high = -2;
+    for (Index t = 0; t < 128 * 128; ++t) {
+      low = std::min(low, texture.texel(t)[c]);
+      high = std::max(high, texture.texel(t)[c]);
+    }
+    bool within = true;
+    for (Index t = 0; t < 128 * 128; ++t) {
+      within = within && result.texel(t)[c] >= low && result.texel(t)[c] <= high;
+    }
+    CHECK(within);
+  }
+  CHECK_FALSE(same_values(result, texture));
+}
+
+TEST_CASE("any number of threads gives the same bytes", "[filter]") {
+  const TriangleMesh mesh = make_torus(24, 12);
+  const Image texture = noise_image(256, 192);
+  FilterOptions options = options_for(FilterKind::bilateral, 3);
+  options.samples = GENERATE(SampleKind::texel, SampleKind::poisson);
+  if (options.samples == SampleKind::poisson) options.spacing = Length{1.5, Length::Unit::texel};
+  options.threads = 1;
+  FilterReport report;
+  const Image one = filter(mesh, texture, options, &report);
+  CHECK(report.patches > 7);
+  for (const int threads : {2, 7}) {
+    options.threads = threads;
+    CHECK(same_values(filter(mesh, texture, options), one));
+  }
+}
+
+TEST_CASE("a plane filters like the plain 2D filter", "[filter]") {
+  const FilterKind kind = GENERATE(FilterKind::bilateral, FilterKind::gaussian);
+  const double sigma_texels = GENERATE(1.0, 3.0, 6.5);
+  const TriangleMesh mesh = make_plane(3, 2, 1.5, 1);
+  const Image texture = noise_image(120, 80);
+  const Image result = filter(mesh, texture, options_for(kind, sigma_texels));
+  const double sigma = sigma_texels * make_texel_map(mesh, 120, 80).median_texel_size();
+  const double db = against_brute_force(mesh, texture, result, kind, sigma, 0.2, 7);
+  CAPTURE(db);
+  CHECK(db > 90);
+}
+
+TEST_CASE("a stretched plane filters like the 2D filter with stretched distances", "[filter]") {
+  const FilterKind kind = GENERATE(FilterKind::bilateral, FilterKind::gaussian);
+  const TriangleMesh mesh = make_plane(2, 2, 3, 1);
+  const Image texture = noise_image(90, 90);
+  const Image result = filter(mesh, texture, options_for(kind, 4));
+  const double sigma = 4 * make_texel_map(mesh, 90, 90).median_texel_size();
+  const double db = against_brute_force(mesh, texture, result, kind, sigma, 0.2, 7);
+  CAPTURE(db);
+  CHECK(db > 90);
+}
+
+TEST_CASE("a folded sheet filters like the flat one", "[filter]") {
+  // Folded until its leaves nearly touch: 4 degrees between them.
+  const double angle = GENERATE(90.0, 4.0);
+  const TriangleMesh flat = make_plane(4, 1, 1.6, 1);
+  const TriangleMesh folded = make_folded_sheet(4, 1.6, 1, angle);
+  const Image texture = noise_image(128, 80);
+  const FilterOptions options = options_for(FilterKind::bilateral, 4);
+  const double db = psnr(flat, filter(flat, texture, options), filter(folded, texture, options));
+  CAPTURE(db);
+  CHECK(db > 90);
+}
+
+TEST_CASE("an atlas cut into pieces, moved and turned filters like the uncut one", "[filter]") {
+  const TriangleMesh mesh = make_plane(8, 6, 4, 3);
+  const Image texture = noise_image(128, 96);
+  const RecutAtlas recut = recut_atlas(mesh, texture, 5);
+  REQUIRE(recut.charts > 4);
+  const FilterOptions options = options_for(FilterKind::bilateral, 4);
+  const Image whole = filter(mesh, texture, options);
+  const Image pieces = filter(recut.mesh, recut.image, options);
+  double squares = 0;
+  std::size_t count = 0;
+  for (Index t = 0; t < recut.new_texel.size(); ++t) {
+    if (recut.new_texel[t] == kNone) continue;
+    for (int c = 0; c < 3; ++c, ++count) {
+      squares += std::pow(double(whole.texel(t)[c]) - pieces.texel(recut.new_texel[t])[c], 2);
+    }
+  }
+  CHECK(decibels(squares, count) > 90);
+}
+
+TEST_CASE("moving, turning and scaling mesh and sigma together changes nothing", "[filter]") {
+  const TriangleMesh mesh = make_cube();
+  TriangleMesh moved = mesh;
+  const double scale = 1e-3;
+  Eigen::Matrix3d turn;
+  turn << 0.36, 0.48, -0.8, -0.8, 0.6, 0, 0.48, 0.64, 0.6;
+  for (Vec3& p : moved.positions) p = scale * (turn * p) + Vec3(5e-3, -2e-3, 1e-2);
+  const Image texture = noise_image(96, 72);
+  FilterOptions options = options_for(FilterKind::bilateral, 1);
+  options.sigma_spatial = {0.3, Length::Unit::mesh};
+  const Image before = filter(mesh, texture, options);
+  options.sigma_spatial.value *= scale;
+  const double db = psnr(mesh, filter(moved, texture, options), before);
+  CAPTURE(db);
+  CHECK(db > 80);
+}
+
+/// Two squares apart from each other, the second twice as large, with the same UVs.
+TriangleMesh two_on_one_chart() {
+  TriangleMesh mesh = make_plane(1, 1, 1, 1);
+  const auto vertices = Index(mesh.positions.size());
+  const std::size_t faces = mesh.faces.size();
+  for (Index v = 0; v < vertices; ++v) {
+    mesh.positions.push_back(2 * mesh.positions[v] + Vec3(0, 0, 10));
+  }
+  for (std::size_t f = 0; f < faces; ++f) {
+    const auto corners = mesh.faces[f];
+    mesh.faces.push_back({corners[0] + vertices, corners[1] + vertices, corners[2] + vertices});
+    mesh.face_uvs.push_back(mesh.face_uvs[f]);
+    mesh.face_materials.push_back(mesh.face_materials[f]);
+  }
+  return mesh;
+}
+
+TEST_CASE("texels of several places get the mean by area, or the first face's result", "[filter]") {
+  const TriangleMesh both = two_on_one_chart();
+  const std::size_t half = both.faces.size() / 2;
+  std::vector<bool> first(both.faces.size(), false), second(both.faces.size(), false);
+  std::fill(first.begin(), first.begin() + std::ptrdiff_t(half), true);
+  std::fill(second.begin() + std::ptrdiff_t(half), second.end(), true);
+
+  const Image texture = noise_image(48, 48);
+  FilterOptions options = options_for(FilterKind::gaussian, 1);
+  options.sigma_spatial = {0.06, Length::Unit::mesh};
+  options.node_spacing = Length{0.08, Length::Unit::mesh};
+  options.faces = first;
+  const Image small = filter(both, texture, options);
+  options.faces = second;
+  const Image large = filter(both, texture, options);
+  REQUIRE(psnr(both, small, large) < 60);
+
+  options.faces.clear();
+  FilterReport report;
+  const Image average = filter(both, texture, options, &report);
+  CHECK(report.overlapped == 48 * 48);
+  CHECK(report.warnings.size() == 1);
+  Image expected = texture;
+  for (std::size_t k = 0; k < expected.pixels.size(); ++k) {
+    expected.pixels[k] = (small.pixels[k] + 4 * large.pixels[k]) / 5;
+  }
+  CHECK(psnr(both, average, expected) > 90);
+
+  options.overlap = Overlap::first;
+  CHECK(psnr(both, filter(both, texture, options), small) > 90);
+  options.overlap = Overlap::error;
+  CHECK_THROWS_AS(filter(both, texture, options), InputError);
+}
+
+TEST_CASE("texels that no chart needs stay bit for bit, and so does alpha", "[filter]") {
+  const TriangleMesh mesh = make_cube();
+  Image texture = noise_image(96, 72, 4);
+  texture.alpha_channel = GENERATE(3, 0, 1);
+  FilterOptions options = options_for(FilterKind::bilateral, 3);
+  options.gutter = GENERATE(0, 2);
+  FilterReport report;
+  const Image result = filter(mesh, texture, options, &report);
+
+  const TexelMap map = make_texel_map(mesh, 96, 72);
+  std::size_t alpha_changes = 0, changes = 0, filtered = 0;
+  for (Index t = 0; t < map.coverage.size(); ++t) {
+    const bool same = std::memcmp(texture.texel(t), result.texel(t), 4 * sizeof(float)) == 0;
+    alpha_changes +=
+        texture.texel(t)[texture.alpha_channel] != result.texel(t)[texture.alpha_channel];
+    filtered += !same && map.coverage[t] == Coverage::covered;
+    changes += !same && map.coverage[t] == Coverage::none;
+  }
+  CHECK(alpha_changes == 0);
+  CHECK(filtered > 1000);
+  CHECK((options.gutter == 0 ? changes == 0 : changes > 0));
+  CHECK(changes <= report.gutter);
+}
+
+TEST_CASE("where alpha is among the channels does not matter to the others", "[filter]") {
+  const TriangleMesh mesh = make_cube();
+  Image last = noise_image(96, 72, 4);
+  last.alpha_channel = 3;
+  Image first = last;
+  first.alpha_channel = 0;
+  for (Index t = 0; t < 96 * 72; ++t) {
+    for (int c = 0; c < 4; ++c) first.texel(t)[(c + 1) % 4] = last.texel(t)[c];
+  }
+  const FilterOptions options = options_for(FilterKind::bilateral, 3);
+  const Image a = filter(mesh, last, options), b = filter(mesh, first, options);
+  std::size_t different = 0;
+  for (Index t = 0; t < 96 * 72; ++t) {
+    for (int c = 0; c < 4; ++c) different += a.texel(t)[c] != b.texel(t)[(c + 1) % 4];
+  }
+  CHECK(different == 0);
+}
+
+TEST_CASE("values that are not finite stay where they are and spread nowhere", "[filter]") {
+  const TriangleMesh mesh = make_plane(1, 1);
+  Image texture = noise_image(64, 64);
+  texture.texel(64 * 30 + 30)[1] = std::numeric_limits<float>::quiet_NaN();
+  texture.texel(64 * 10 + 40)[0] = std::numeric_limits<float>::infinity();
+  const Image result =
+      filter(mesh, texture, options_for(GENERATE(FilterKind::bilateral, FilterKind::gaussian), 4));
+  std::size_t bad = 0;
+  for (const float v : result.pixels) bad += !std::isfinite(v);
+  CHECK(bad == 2);
+  CHECK(std::isnan(result.texel(64 * 30 + 30)[1]));
+  CHECK(result.texel(64 * 30 + 30)[0] == texture.texel(64 * 30 + 30)[0]);
+  CHECK(result.texel(64 * 10 + 40)[0] == std::numeric_limits<float>::infinity());
+}
+
+TEST_CASE("Poisson quadrature comes close to texel quadrature", "[filter]") {
+  const TriangleMesh mesh = make_cube();
+  SurfaceTextureOptions pattern;
+  pattern.noise = 0.1;
+  const Image texture = make_surface_texture(mesh, 256, 192, pattern);
+  FilterOptions options = options_for(FilterKind::bilateral, 6);
+  const Image texels = filter(mesh, texture, options);
+  options.samples = SampleKind::poisson;
+  FilterReport report;
+  const Image poisson = filter(mesh, texture, options, &report);
+  CHECK(report.samples > report.texels);
+  CHECK(report.without_sample == 0);
+  const double db = psnr(mesh, texels, poisson);
+  CAPTURE(db);
+  CHECK(db > 45);  // samples share the area of the texel that they are in
+  CHECK(report.sample_spacing <= report.largest_sample_spacing);
+}
+
+TEST_CASE("texels without a Poisson sample within the radius keep their values", "[filter]") {
+  const TriangleMesh mesh = make_plane(1, 1);
+  const Image texture = noise_image(64, 64);
+  FilterOptions options = options_for(FilterKind::gaussian, 1);
+  options.samples = SampleKind::poisson;
+  options.spacing = Length{12, Length::Unit::texel};
+  options.radius = Length{2, Length::Unit::texel};
+  FilterReport report;
+  const Image result = filter(mesh, texture, options, &report);
+  std::size_t kept = 0;
+  for (Index t = 0; t < 64 * 64; ++t) {
+    kept += std::memcmp(texture.texel(t), result.texel(t), 3 * sizeof(float)) == 0;
+  }
+  CHECK(report.without_sample > 1000);
+  CHECK(kept >= report.without_sample);
+}
+
+TEST_CASE("exact distances and the default agree on a fold", "[filter]") {
+  const TriangleMesh mesh = make_folded_sheet(2, 1, 1, 60);
+  const Image texture = noise_image(32, 32);
+  FilterOptions options = options_for(FilterKind::bilateral, 4);
+  const Image default_result = filter(mesh, texture, options);
+  options.distance = DistanceMethod::exact;
+  FilterReport report;
+  CHECK(psnr(mesh, filter(mesh, texture, options, &report), default_result) > 90);
+  CHECK(report.backend == "exact");
+}
+
+TEST_CASE("options outside their domain are refused by name", "[filter]") {
+  const TriangleMesh mesh = make_plane(1, 1);
+  const Image texture = noise_image(16, 16);
+  const auto message = [&](const std::function<void(FilterOptions&)>& change) -> std::string {
+    FilterOptions options;
+    change(options);
+    try {
+      filter(mesh, texture, options);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  using O = FilterOptions;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto contains = [](const char* text) { return Catch::Matchers::Contains(text); };
+  CHECK_THAT(message([](O& o) { o.sigma_spatial.value = 0; }), contains("--sigma-spatial"));
+  CHECK_THAT(message([&](O& o) { o.sigma_spatial.value = nan; }), contains("--sigma-spatial"));
+  CHECK_THAT(message([](O& o) { o.sigma_range = -1; }), contains("--sigma-range"));
+  CHECK_THAT(message([](O& o) { o.radius = Length{0}; }), contains("--radius"));
+  CHECK_THAT(message([](O& o) { o.node_spacing = Length{-2}; }), contains("--node-spacing"));
+  CHECK_THAT(message([](O& o) { o.threads = -1; }), contains("--threads"));
+  CHECK_THAT(message([](O& o) { o.gutter = -1; }), contains("--gutter"));
+  CHECK_THAT(message([](O& o) { o.spacing = Length{1}; }), contains("--spacing"));
+  CHECK_THAT(message([](O& o) { o.r_coef = 1; }), contains("--r-coef"));
+  CHECK_THAT(message([](O& o) {
+               o.samples = SampleKind::poisson;
+               o.spacing = Length{1};
+               o.r_coef = 1;
+             }),
+             contains("exclude each other"));
+  CHECK(message([](O&) {}).empty());
+}
+
+TEST_CASE("a mesh without UVs and a choice without faces are refused", "[filter]") {
+  TriangleMesh mesh = make_plane(2, 2);
+  const Image texture = noise_image(16, 16);
+  FilterOptions options;
+  options.faces.assign(mesh.faces.size(), false);
+  CHECK_THROWS_AS(filter(mesh, texture, options), InputError);
+  options.faces.clear();
+  for (auto& corners : mesh.face_uvs) corners = {kNone, kNone, kNone};
+  CHECK_THROWS_WITH(filter(mesh, texture, options), Catch::Matchers::Contains("no UVs"));
+}
+
+TEST_CASE("an exception from the progress callback stops the work", "[filter]") {
+  struct Stop {};
+  const TriangleMesh mesh = make_cube();
+  const Image texture = noise_image(96, 72);
+  int calls = 0;
+  const Progress progress = [&calls](std::string_view stage, double done) {
+    ++calls;
+    if (stage == "filter" && done > 0.3) throw Stop{};
+  };
+  CHECK_THROWS_AS(filter(mesh, texture, options_for(FilterKind::bilateral, 3), nullptr, progress),
+                  Stop);
+  CHECK(calls > 5);
+}
+
+TEST_CASE("the plan tells what the filter then does", "[filter]") {
+  const TriangleMesh mesh = make_torus(32, 16);
+  const Image texture = noise_image(256, 128);
+  FilterOptions options = options_for(FilterKind::bilateral, 6);
+  options.samples = GENERATE(SampleKind::texel, SampleKind::poisson);
+  if (options.samples == SampleKind::poisson) options.spacing = Length{1.5, Length::Unit::texel};
+  const FilterPlan plan = plan_filter(mesh, texture, options);
+  FilterReport report;
+  filter(mesh, texture, options, &report);
+  CHECK(plan.texels == report.texels);
+  CHECK(plan.sigma_spatial == report.sigma_spatial);
+  CHECK(plan.radius == report.radius);
+  CHECK(double(plan.samples) == Approx(double(report.samples)).epsilon(0.25));
+  CHECK(double(plan.nodes) == Approx(double(report.nodes)).epsilon(0.6));
+  CHECK(report.pairs > 200 * report.texels);
+  CHECK(report.stages.size() == 5);
+}
+
+TEST_CASE("patches without a usable texel keep their texels", "[filter]") {
+  const TriangleMesh mesh = make_plane(4, 4);
+  Image texture = make_texture(256, 256, Pattern::checker, 0.2, 1);
+  for (int y = 0; y < 256; ++y)
+    for (Index x = 0; x < 200; ++x)
+      texture.texel(Index(y) * 256 + x)[0] = std::numeric_limits<float>::quiet_NaN();
+  for (const FilterMethod method : {FilterMethod::direct, FilterMethod::nodes}) {
+    FilterOptions options = options_for(FilterKind::bilateral, 4);
+    options.method = method;
+    options.gutter = 0;
+    FilterReport report;
+    const Image result = filter(mesh, texture, options, &report);
+    double change = 0;
+    for (Index t = 0; t < 256 * 256; ++t) {
+      if (t % 256 < 200) {
+        REQUIRE(std::isnan(result.texel(t)[0]));
+        REQUIRE(result.texel(t)[1] == texture.texel(t)[1]);
+      } else {
+        change = std::max<double>(change, std::abs(result.texel(t)[0] - texture.texel(t)[0]));
+      }
+    }
+    CHECK(change > 0.01);
+    CHECK(report.without_sample == 256 * 200);
+  }
+}
+
+TEST_CASE("texels without a sample within the radius keep their values", "[filter]") {
+  const TriangleMesh mesh = make_plane(4, 4);
+  const Image texture = make_texture(128, 128, Pattern::checker, 0.2, 1);
+  for (const FilterMethod method : {FilterMethod::direct, FilterMethod::nodes}) {
+    FilterOptions options = options_for(FilterKind::bilateral, 2);
+    options.method = method;
+    options.samples = SampleKind::poisson;
+    options.spacing = Length{0.6};
+    FilterReport report;
+    const Image result = filter(mesh, texture, options, &report);
+    CHECK(report.without_sample > 0.9 * double(report.texels));
+    CHECK(psnr(mesh, texture, result) > 20);
+  }
+}
+
+TEST_CASE("how far nodes are apart does not decide which texels are within the radius",
+          "[filter]") {
+  const TriangleMesh mesh = make_plane(4, 4);
+  const Image texture = make_texture(500, 500, Pattern::checker, 0.2, 1);
+  FilterReport fine, coarse;
+  FilterOptions options = options_for(FilterKind::bilateral, 1);
+  options.radius = Length{2, Length::Unit::texel};
+  options.method = FilterMethod::direct;
+  filter(mesh, texture, options, &coarse);
+  options.node_spacing = Length{2, Length::Unit::texel};
+  filter(mesh, texture, options, &fine);
+  CHECK(coarse.nodes < fine.nodes / 4);
+  CHECK(coarse.pairs == fine.pairs);
+}
+
+}  // namespace
+}  // namespace onmesh

@@ -1,0 +1,291 @@
+#include "onmesh/kernel/direct/direct_kernel.h"
+
+#include <hwy/targets.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "support/flat_patch.h"
+
+namespace onmesh {
+namespace {
+
+struct Reference {
+  std::vector<double> values;
+  std::uint64_t pairs = 0;
+};
+
+/// The filter as DESIGN defines it, in double, over all texels of a flat patch.
+Reference brute_force(const FlatPatch& flat, const KernelOptions& options, int range_channels) {
+  const auto channels = std::size_t(flat.channels);
+  const double limit = options.radius * options.radius * (1 + 1e-5);
+  Reference result;
+  for (const Index x : flat.target_texels) {
+    std::vector<double> sum(channels, 0);
+    double weights = 0;
+    for (const Sample& s : flat.samples.samples) {
+      const double d2 = (flat.positions[x] - flat.positions[s.texel]).squaredNorm();
+      if (d2 > limit) continue;
+      ++result.pairs;
+      double exponent = d2 / (2 * options.sigma_spatial * options.sigma_spatial);
+      const float* const own = flat.colours.data() + x * channels;
+      const float* const colour = flat.colours.data() + s.texel * channels;
+      if (options.sigma_range > 0) {
+        for (int c = 0; c < range_channels; ++c) {
+          exponent += std::pow((double(colour[c]) - own[c]) / options.sigma_range, 2) / 2;
+        }
+      }
+      const double w = s.area * std::exp(-exponent);
+      weights += w;
+      for (std::size_t c = 0; c < channels; ++c) sum[c] += w * colour[c];
+    }
+    for (std::size_t c = 0; c < channels; ++c) result.values.push_back(sum[c] / weights);
+  }
+  return result;
+}
+
+double psnr(const std::vector<float>& a, const std::vector<double>& b) {
+  REQUIRE(a.size() == b.size());
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+  return 10 * std::log10(double(a.size()) / sum);
+}
+
+double reach_for(double radius, double spacing) { return radius * 1.00001 + 2.6 * spacing; }
+
+TEST_CASE("on a flat patch the kernel is the plain 2D bilateral filter", "[kernel]") {
+  const int channels = GENERATE(1, 2, 3, 4, 6);
+  const double aspect = GENERATE(1.0, 2.0);
+  const FlatPatch flat = make_flat_patch(72, 60, aspect, 6, 0.25, reach_for(12.5, 6), channels, 11);
+  const KernelOptions options{5, 12.5, 0.3};
+  std::vector<float> out;
+  const KernelCounts counts = filter_patch(flat.input(), options, out);
+  const Reference reference = brute_force(flat, options, channels);
+  CHECK(counts.pairs == reference.pairs);
+  CHECK(counts.without_sample == 0);
+  CHECK(psnr(out, reference.values) > 110);
+}
+
+TEST_CASE("without sigma_range the kernel is the plain 2D Gaussian filter", "[kernel]") {
+  const int channels = GENERATE(1, 2, 3, 4, 5);
+  const FlatPatch flat = make_flat_patch(72, 60, 1, 6, 0.25, reach_for(15, 6), channels, 5);
+  const KernelOptions options{5, 15, 0};
+  std::vector<float> out;
+  const KernelCounts counts = filter_patch(flat.input(), options, out);
+  const Reference reference = brute_force(flat, options, 0);
+  CHECK(counts.pairs == reference.pairs);
+  CHECK(psnr(out, reference.values) > 110);
+}
+
+TEST_CASE("ten thousand taps keep 100 dB", "[kernel]") {
+  const double sigma_range = GENERATE(0.0, 0.5);
+  const FlatPatch flat = make_flat_patch(150, 150, 1, 14, 0.1, reach_for(57, 14), 3, 3);
+  const KernelOptions options{20, 57, sigma_range};
+  std::vector<float> out;
+  const KernelCounts counts = filter_patch(flat.input(), options, out);
+  REQUIRE(counts.pairs > 10'000 * flat.target_texels.size());
+  const double db = psnr(out, brute_force(flat, options, 3).values);
+  UNSCOPED_INFO("dB: " << db);
+  CHECK(db > 100);
+}
+
+TEST_CASE("faces with a few samples and vectors over many faces filter alike", "[kernel]") {
+  const double spacing = GENERATE(1.1, 2.5);
+  const FlatPatch flat = make_flat_patch(40, 40, 1, spacing, 0.3, reach_for(5, spacing), 3, 23);
+  const KernelOptions options{2, 5, 0.2};
+  std::vector<float> out;
+  const KernelCounts counts = filter_patch(flat.input(), options, out);
+  const Reference reference = brute_force(flat, options, 3);
+  CHECK(counts.pairs == reference.pairs);
+  CHECK(psnr(out, reference.values) > 110);
+}
+
+TEST_CASE("a core much wider than the radius filters right in any unit of length", "[kernel]") {
+  // Targets that share a vector may be out of each other's reach here.
+  const double unit = GENERATE(1.0, 1.0 / 80, 300.0);
+  FlatPatch flat = make_flat_patch(80, 60, 1, 3, 0.8, reach_for(3, 3), 3, 37);
+  flat.patch.longest_edge *= unit;
+  for (auto& lengths : flat.patch.lengths) {
+    for (double& length : lengths) length *= unit;
+  }
+  for (float& squared : flat.table.squared) {
+    if (squared != kUnreachable) squared *= static_cast<float>(unit * unit);
+  }
+  for (Sample& s : flat.samples.samples) s.area *= static_cast<float>(unit * unit);
+  for (Vec2& p : flat.positions) p *= unit;
+  const KernelOptions options{unit, 3 * unit, GENERATE(0.0, 0.2)};
+  std::vector<float> out;
+  const KernelCounts counts = filter_patch(flat.input(), options, out);
+  const Reference reference = brute_force(flat, options, 3);
+  CHECK(counts.pairs == reference.pairs);
+  CHECK(psnr(out, reference.values) > 110);
+}
+
+TEST_CASE("only range channels take part in the colour difference", "[kernel]") {
+  const FlatPatch flat = make_flat_patch(48, 40, 1, 6, 0.25, reach_for(10, 6), 4, 7);
+  const KernelOptions options{4, 10, 0.2};
+  KernelInput input = flat.input();
+  input.colours.range_channels = 1;
+  std::vector<float> out;
+  filter_patch(input, options, out);
+  CHECK(psnr(out, brute_force(flat, options, 1).values) > 110);
+}
+
+TEST_CASE("pairs at exactly the radius count", "[kernel]") {
+  const FlatPatch flat = make_flat_patch(60, 60, 1, 7.3, 0.2, reach_for(13, 7.3), 1, 2);
+  // 5-12-13: twelve lattice points lie on the circle of radius 13.
+  std::vector<float> out;
+  const KernelCounts counts = filter_patch(flat.input(), {5, 13, 0}, out);
+  std::uint64_t disc = 0;
+  for (int j = -13; j <= 13; ++j) {
+    for (int i = -13; i <= 13; ++i) disc += i * i + j * j <= 169;
+  }
+  CHECK(counts.pairs == disc * flat.target_texels.size());
+}
+
+TEST_CASE("every instruction set agrees", "[kernel]") {
+  const FlatPatch flat = make_flat_patch(60, 60, 1, 7, 0.25, reach_for(12, 7), 3, 29);
+  const KernelOptions options{5, 12, 0.15};
+  const Reference reference = brute_force(flat, options, 3);
+  const std::int64_t supported = hwy::SupportedTargets();
+  int tried = 0;
+  for (std::int64_t rest = supported; rest != 0; rest &= rest - 1) {
+    hwy::SetSupportedTargetsForTest(rest & -rest);
+    std::vector<float> out;
+    const KernelCounts counts = filter_patch(flat.input(), options, out);
+    INFO(kernel_target());
+    CHECK(counts.pairs == reference.pairs);
+    CHECK(psnr(out, reference.values) > 110);
+    ++tried;
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  CHECK(tried > 0);
+}
+
+TEST_CASE("faces with an unreachable corner pair exchange nothing", "[kernel]") {
+  // Two sheets that no path joins: every texel right of the middle is on the other one.
+  FlatPatch flat = make_flat_patch(60, 40, 1, 6, 0.5, 1e9, 1, 31);
+  const auto is_right = [&flat](Index local) {
+    double x = 0;
+    const Index f = flat.patch.faces[local];
+    const Index begin = flat.samples.face_offsets[f], end = flat.samples.face_offsets[f + 1];
+    for (Index k = begin; k < end; ++k) x += flat.positions[flat.samples.samples[k].texel].x();
+    return end > begin && x / (end - begin) > 30;
+  };
+  // Give each side nodes of its own, then cut the table between them.
+  Patch cut = flat.patch;
+  cut.nodes.clear();
+  std::vector<std::array<Index, 2>> copy(flat.patch.nodes.size(), {kNone, kNone});
+  std::vector<Index> side, original;
+  for (Index f = 0; f < cut.faces.size(); ++f) {
+    if (f == cut.core_faces) cut.core_nodes = Index(side.size());
+    for (Index& n : cut.corners[f]) {
+      Index& mine = copy[n][is_right(f)];
+      if (mine == kNone) {
+        mine = Index(side.size());
+        side.push_back(is_right(f));
+        original.push_back(n);
+        cut.nodes.push_back(mine);
+      }
+      n = mine;
+    }
+  }
+  // Nodes of the core that only the halo had reached so far keep their old rows.
+  DistanceTable table;
+  table.rows = cut.core_nodes;
+  table.columns = Index(side.size());
+  for (Index i = 0; i < table.rows; ++i) {
+    for (Index j = 0; j < table.columns; ++j) {
+      table.squared.push_back(side[i] == side[j] ? flat.table.row(original[i])[original[j]]
+                                                 : kUnreachable);
+    }
+  }
+  // The right sheet's texels are white, the left one's black: nothing may mix.
+  for (Index f = 0; f < cut.faces.size(); ++f) {
+    for (Index k = flat.samples.face_offsets[cut.faces[f]];
+         k < flat.samples.face_offsets[cut.faces[f] + 1]; ++k) {
+      flat.colours[flat.samples.samples[k].texel] = is_right(f) ? 1.0F : 0.0F;
+    }
+  }
+  KernelInput input = flat.input();
+  input.patch = &cut;
+  input.table = &table;
+  std::vector<float> out;
+  filter_patch(input, {8, 20, 0}, out);
+  REQUIRE(out.size() == flat.target_texels.size());
+  std::size_t wrong = 0;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    wrong += std::abs(out[k] - flat.colours[flat.target_texels[k]]) > 1e-6F;
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("colours that are not finite have no weight and stay", "[kernel]") {
+  FlatPatch flat = make_flat_patch(48, 40, 1, 6, 0.4, reach_for(10, 6), 3, 13);
+  const KernelOptions options{4, 10, GENERATE(0.0, 0.3)};
+  const Index nan = flat.target_texels[5], infinite = flat.target_texels[77];
+  flat.colours[nan * 3 + 1] = std::numeric_limits<float>::quiet_NaN();
+  flat.colours[infinite * 3] = -std::numeric_limits<float>::infinity();
+  std::vector<float> out;
+  const KernelCounts counts = filter_patch(flat.input(), options, out);
+  CHECK(counts.without_sample == 2);
+
+  // The reference: the same without these samples.
+  FlatPatch without = flat;
+  for (Sample& s : without.samples.samples) {
+    if (s.texel == nan || s.texel == infinite) s.area = 0;
+  }
+  for (const Index t : {nan, infinite}) {
+    for (Index c = 0; c < 3; ++c) without.colours[t * 3 + c] = 0;
+  }
+  const Reference reference = brute_force(without, options, 3);
+  for (std::size_t k = 0; k < flat.target_texels.size(); ++k) {
+    const Index t = flat.target_texels[k];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float own = flat.colours[t * 3 + c];
+      if (t == nan || t == infinite) {
+        CHECK((out[k * 3 + c] == own || (std::isnan(own) && std::isnan(out[k * 3 + c]))));
+      } else if (std::abs(out[k * 3 + c] - reference.values[k * 3 + c]) > 1e-5) {
+        FAIL_CHECK("target " << k << " channel " << c);
+      }
+    }
+  }
+}
+
+TEST_CASE("a target without a sample within the radius keeps its values", "[kernel]") {
+  FlatPatch flat = make_flat_patch(40, 40, 1, 6, 0.4, reach_for(8, 6), 3, 17);
+  Samples few = flat.samples;
+  for (Sample& s : few.samples) {
+    if (flat.positions[s.texel].x() > 15) s.area = 0;
+  }
+  KernelInput input = flat.input();
+  input.sources = &few;
+  std::vector<float> out;
+  const KernelCounts counts = filter_patch(input, {3, 8, 0.5}, out);
+  std::uint64_t lonely = 0;
+  for (std::size_t k = 0; k < flat.target_texels.size(); ++k) {
+    const Index t = flat.target_texels[k];
+    if (flat.positions[t].x() < 23) continue;
+    ++lonely;
+    for (std::size_t c = 0; c < 3; ++c) REQUIRE(out[k * 3 + c] == flat.colours[t * 3 + c]);
+  }
+  CHECK(lonely > 0);
+  CHECK(counts.without_sample == lonely);
+}
+
+TEST_CASE("high dynamic range colours neither overflow nor leak", "[kernel]") {
+  FlatPatch flat = make_flat_patch(48, 40, 1, 6, 0.4, reach_for(10, 6), 3, 19);
+  for (std::size_t k = 0; k < flat.colours.size(); k += 3) {
+    const bool bright = (k / 3) % 7 == 0;
+    for (std::size_t c = 0; c < 3; ++c) flat.colours[k + c] = bright ? 65504.0F : 0.25F;
+  }
+  std::vector<float> out;
+  filter_patch(flat.input(), {4, 10, 0.1}, out);
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    REQUIRE(out[k] == flat.colours[flat.target_texels[k / 3] * 3 + k % 3]);
+  }
+}
+
+}  // namespace
+}  // namespace onmesh

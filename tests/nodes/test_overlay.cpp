@@ -1,0 +1,111 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <random>
+
+#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/nodes/intrinsic_triangulation.h"
+#include "onmesh/nodes/overlay.h"
+#include "onmesh/nodes/refine.h"
+#include "onmesh/procedural/shapes.h"
+#include "support/paths.h"
+
+using namespace onmesh;
+
+namespace {
+
+SurfacePoint random_point(const TriangleMesh& mesh, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  double a = unit(random), b = unit(random);
+  if (a + b > 1) {
+    a = 1 - a;
+    b = 1 - b;
+  }
+  return {static_cast<Index>(random() % mesh.faces.size()), Vec3(1 - a - b, a, b)};
+}
+
+double worst_round_trip(const TriangleMesh& mesh, bool flipped) {
+  IntrinsicTriangulation t(mesh, make_half_edge_mesh(mesh));
+  if (flipped) t.flip_to_delaunay();
+  const Overlay overlay = make_overlay(t);
+  std::mt19937 random(1);
+  double worst = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const SurfacePoint p = random_point(mesh, random);
+    const SurfacePoint back = t.on_input(overlay.locate(p));
+    worst = std::max(worst, (mesh.position(back) - mesh.position(p)).norm());
+  }
+  return worst / mesh.diagonal();
+}
+
+TriangleMesh spindle(double height) {
+  TriangleMesh mesh;
+  mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, height, 0),
+                    Vec3(0.5, height / 3, height)};
+  mesh.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  mesh.face_uvs.assign(4, {kNone, kNone, kNone});
+  mesh.face_materials.assign(4, kNone);
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("points map into the intrinsic triangulation and back", "[overlay]") {
+  for (const bool flipped : {false, true}) {
+    CHECK(worst_round_trip(make_cube(1), flipped) < 1e-12);
+    CHECK(worst_round_trip(make_torus(30, 5, 1, 0.2), flipped) < 1e-12);
+    CHECK(worst_round_trip(make_blob(2, 8), flipped) < 1e-12);
+    CHECK(worst_round_trip(make_cone(200, 5, 6), flipped) < 1e-12);
+    CHECK(worst_round_trip(make_cylinder(60, 1), flipped) < 1e-12);
+    CHECK(worst_round_trip(spindle(1e-3), flipped) < 1e-9);
+  }
+}
+
+TEST_CASE("no point falls between the pieces of an overlay", "[overlay]") {
+  for (const TriangleMesh& mesh : {make_cube(1), make_blob(2, 8), make_cone(270, 5, 1),
+                                   make_u_sheet(1, 1, 0.02, 4), spindle(0.01)}) {
+    RefineOptions options;
+    options.spacing = 0.13;
+    const NodeSurface surface = refine(mesh, make_half_edge_mesh(mesh), options);
+    std::mt19937 random(2);
+    for (int i = 0; i < 5000; ++i) {
+      const SurfacePoint p = random_point(mesh, random);
+      double best = -1;
+      for (Index k = surface.overlay.face_offsets[p.face];
+           k < surface.overlay.face_offsets[p.face + 1]; ++k) {
+        best = std::max(best, (surface.overlay.pieces[k].to_node * p.barycentric).minCoeff());
+      }
+      REQUIRE(best > -1e-9);
+    }
+  }
+}
+
+TEST_CASE("pieces lay node faces out true to length", "[overlay]") {
+  const TriangleMesh mesh = make_blob(2, 8);
+  RefineOptions options;
+  options.spacing = 0.2;
+  const NodeSurface surface = refine(mesh, make_half_edge_mesh(mesh), options);
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    const auto corner = mesh.corners(f);
+    for (Index k = surface.overlay.face_offsets[f]; k < surface.overlay.face_offsets[f + 1]; ++k) {
+      // Node corners in the input face's plane, from the inverse map.
+      const Eigen::Matrix3d to_input = surface.overlay.pieces[k].to_node.inverse();
+      const auto& lengths = surface.nodes.lengths[surface.overlay.pieces[k].node_face];
+      for (int c = 0; c < 3; ++c) {
+        const Vec3 a = to_input.col(c), b = to_input.col((c + 1) % 3);
+        const Vec3 edge =
+            corner[0] * (b[0] - a[0]) + corner[1] * (b[1] - a[1]) + corner[2] * (b[2] - a[2]);
+        REQUIRE(edge.norm() == Approx(lengths[static_cast<std::size_t>(c)]).epsilon(1e-7));
+      }
+    }
+  }
+}
+
+TEST_CASE("a scanned mesh maps into its refinement and back", "[overlay]") {
+  const std::filesystem::path file = shared_data() / "spot/cow.obj";
+  if (!std::filesystem::exists(file)) {
+    WARN("skipped: " << file << " is not there");
+    return;
+  }
+  const TriangleMesh mesh = clean(weld(read_mesh(file)));
+  CHECK(worst_round_trip(mesh, true) < 1e-9);
+}

@@ -1,0 +1,198 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "onmesh/base/error.h"
+#include "onmesh/nodes/refine.h"
+#include "onmesh/procedural/shapes.h"
+
+using namespace onmesh;
+
+namespace {
+
+NodeSurface refine_to(const TriangleMesh& mesh, double spacing, RefineReport* report = nullptr) {
+  RefineOptions options;
+  options.spacing = spacing;
+  return refine(mesh, make_half_edge_mesh(mesh), options, report);
+}
+
+double area_of(const NodeMesh& nodes) {
+  double sum = 0;
+  for (Index f = 0; f < nodes.faces.size(); ++f) sum += nodes.face_area(f);
+  return sum;
+}
+
+double area_of(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (Index f = 0; f < mesh.faces.size(); ++f) sum += mesh.face_area(f);
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("refinement keeps the area and the input's vertices", "[refine]") {
+  for (const TriangleMesh& mesh :
+       {make_cube(1), make_torus(16, 8), make_blob(2, 1), make_cone(270, 9, 1), make_saddle(6),
+        make_u_sheet(1, 1, 0.01, 3)}) {
+    RefineReport report;
+    const NodeSurface surface = refine_to(mesh, 0.1, &report);
+    CHECK(area_of(surface.nodes) == Approx(area_of(mesh)).epsilon(1e-11));
+    CHECK(report.nodes == surface.nodes.nodes.size());
+    for (Index v = 0; v < mesh.positions.size(); ++v) {
+      CHECK((mesh.position(surface.nodes.nodes[v]) - mesh.positions[v]).norm() < 1e-14);
+    }
+  }
+}
+
+TEST_CASE("refined faces keep the angle bound and the size bound", "[refine]") {
+  for (const double spacing : {0.3, 0.1, 0.04}) {
+    for (const TriangleMesh& mesh :
+         {make_cube(1), make_torus(9, 5), make_plane(1, 1), make_blob(1, 9)}) {
+      RefineReport report;
+      const NodeSurface surface = refine_to(mesh, spacing, &report);
+      CHECK(report.smallest_angle_degrees >= 25);
+      CHECK(surface.nodes.longest_edge() <= 1.5 * spacing);
+    }
+  }
+}
+
+TEST_CASE("refined edges are Delaunay", "[refine]") {
+  const NodeSurface surface = refine_to(make_blob(2, 4), 0.15);
+  const NodeMesh& m = surface.nodes;
+  const auto opposite_angle = [&](Index f, Index k) {
+    const double c = m.lengths[f][k], a = m.lengths[f][(k + 1) % 3], b = m.lengths[f][(k + 2) % 3];
+    return std::acos((a * a + b * b - c * c) / (2 * a * b));
+  };
+  for (Index f = 0; f < m.faces.size(); ++f) {
+    for (Index k = 0; k < 3; ++k) {
+      const Index other = m.neighbours[f][k];
+      REQUIRE(other != kNone);
+      REQUIRE(m.lengths[other / 3][other % 3] == m.lengths[f][k]);
+      REQUIRE(opposite_angle(f, k) + opposite_angle(other / 3, other % 3) <
+              std::numbers::pi + 1e-6);
+    }
+  }
+}
+
+TEST_CASE("nodes are denser around a cone than on the flat", "[refine]") {
+  const TriangleMesh mesh = make_cone(270, 12, 1);
+  const NodeSurface surface = refine_to(mesh, 0.1);
+  double near = 0, far = 0;
+  int near_count = 0, far_count = 0;
+  for (Index f = 0; f < surface.nodes.faces.size(); ++f) {
+    const auto& corner = surface.nodes.faces[f];
+    const double radius = mesh.position(surface.nodes.nodes[corner[0]]).norm();
+    const double size = std::sqrt(surface.nodes.face_area(f));
+    if (radius < 0.05) {
+      near += size;
+      ++near_count;
+    } else if (radius > 0.5 && radius < 0.9) {
+      far += size;
+      ++far_count;
+    }
+  }
+  REQUIRE(near_count > 0);
+  REQUIRE(far_count > 0);
+  CHECK(near / near_count < 0.6 * far / far_count);
+}
+
+TEST_CASE("halving the spacing quadruples the nodes of a flat sheet", "[refine]") {
+  const TriangleMesh mesh = make_plane(1, 1);
+  double before = 0;
+  for (const double spacing : {0.08, 0.04, 0.02}) {
+    const auto nodes = static_cast<double>(refine_to(mesh, spacing).nodes.nodes.size());
+    const double lattice = 2 / (std::sqrt(3.0) * spacing * spacing);
+    CHECK(nodes > 0.7 * lattice);
+    CHECK(nodes < 1.7 * lattice);
+    if (before > 0) CHECK(nodes / before == Approx(4).epsilon(0.25));
+    before = nodes;
+  }
+}
+
+TEST_CASE("needles, caps and pillows are refined without end", "[refine]") {
+  for (const double height : {0.3, 1e-3, 1e-5}) {
+    TriangleMesh tetrahedron;
+    tetrahedron.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, height, 0),
+                             Vec3(0.5, height / 3, height)};
+    tetrahedron.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    tetrahedron.face_uvs.assign(4, {kNone, kNone, kNone});
+    tetrahedron.face_materials.assign(4, kNone);
+    const NodeSurface surface = refine_to(tetrahedron, 0.1);
+    CHECK(area_of(surface.nodes) == Approx(area_of(tetrahedron)).epsilon(1e-5));
+    CHECK(surface.nodes.nodes.size() < 100000);
+  }
+}
+
+TEST_CASE("a face without area does not stop the refinement", "[refine]") {
+  TriangleMesh mesh = make_plane(1, 1);
+  // Vertex 4 on the diagonal, seen as a corner by one side only: a flat face closes the gap.
+  mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0), Vec3(0.5, 0.5, 0)};
+  mesh.faces = {{0, 1, 2}, {0, 4, 3}, {4, 2, 3}, {0, 2, 4}};
+  mesh.face_uvs.assign(4, {kNone, kNone, kNone});
+  mesh.face_materials.assign(4, kNone);
+  const NodeSurface surface = refine_to(mesh, 0.2);
+  CHECK(area_of(surface.nodes) == Approx(1).epsilon(1e-5));
+  for (const auto& l : surface.nodes.lengths) CHECK(l[0] + l[1] + l[2] < 1e3);
+}
+
+TEST_CASE("spacings that make no sense are refused", "[refine]") {
+  CHECK_THROWS_AS(refine_to(make_plane(1, 1), 0), UsageError);
+  CHECK_THROWS_AS(refine_to(make_plane(1, 1), std::nan("")), UsageError);
+  RefineOptions options;
+  options.spacing = 1e-3;
+  options.max_nodes = 1000;
+  const TriangleMesh mesh = make_plane(1, 1);
+  CHECK_THROWS_AS(refine(mesh, make_half_edge_mesh(mesh), options), InputError);
+}
+
+TEST_CASE("nodes are few where none are needed, and as dense as ever within reach", "[refine]") {
+  for (const Index segments : {1U, 16U}) {
+    // A large plane with a small needed patch in its corner, in faces of their own.
+    TriangleMesh mesh = make_plane(int(segments), int(segments), 10, 10);
+    RefineOptions options;
+    options.spacing = 0.05;
+    options.reach = 0.5;
+    options.needed.assign(mesh.faces.size(), false);
+    Vec3 corner = Vec3::Zero();
+    if (segments == 1) {
+      // Both faces touch the needed one, which is cut off at a corner.
+      corner = mesh.positions[mesh.faces[0][0]];
+      const Index a = Index(mesh.positions.size());
+      const auto face = mesh.faces[0];
+      mesh.positions.push_back(corner + 0.03 * (mesh.positions[face[1]] - corner));
+      mesh.positions.push_back(corner + 0.03 * (mesh.positions[face[2]] - corner));
+      const auto other = mesh.faces[1];
+      mesh.faces = {{face[0], a, a + 1}, {a, face[1], a + 1}, {face[1], face[2], a + 1}};
+      // The other face's side along the diagonal gets the new vertex, too.
+      for (Index k = 0; k < 3; ++k) {
+        const Index from = other[k], to = other[(k + 1) % 3], apex = other[(k + 2) % 3];
+        const bool along = (from == face[2] && to == face[0]) || (from == face[0] && to == face[1]);
+        const bool shared = (from == face[2] && to == face[0]) ||
+                            (from == face[0] && to == face[2]) ||
+                            (from == face[1] && to == face[0]);
+        if (!shared && !along) continue;
+        const Index split = from == face[2] || to == face[2] ? a + 1 : a;
+        mesh.faces.push_back({from, split, apex});
+        mesh.faces.push_back({split, to, apex});
+      }
+      mesh.face_uvs.assign(mesh.faces.size(), {kNone, kNone, kNone});
+      mesh.face_materials.assign(mesh.faces.size(), kNone);
+      options.needed.assign(mesh.faces.size(), false);
+    } else {
+      corner = mesh.positions[mesh.faces[0][0]];
+    }
+    options.needed[0] = true;
+    const NodeSurface surface = refine(mesh, make_half_edge_mesh(mesh), options);
+    CHECK(area_of(surface.nodes) == Approx(area_of(mesh)).epsilon(1e-11));
+    const double everywhere = 100 * 2 / (std::sqrt(3.0) * 0.05 * 0.05);
+    CHECK(double(surface.nodes.nodes.size()) < 0.05 * everywhere);
+    double longest = 0;
+    for (Index f = 0; f < surface.nodes.faces.size(); ++f) {
+      const Index node = surface.nodes.faces[f][0];
+      if ((mesh.position(surface.nodes.nodes[node]) - corner).norm() > options.reach) continue;
+      for (const double l : surface.nodes.lengths[f]) longest = std::max(longest, l);
+    }
+    CHECK(longest > 0);
+    CHECK(longest <= 1.4 * options.spacing * (1 + 1e-6));
+  }
+}

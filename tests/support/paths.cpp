@@ -1,0 +1,11 @@
+#include "support/paths.h"
+
+namespace onmesh {
+
+std::filesystem::path source_folder() { return ONMESH_SOURCE_DIR; }
+
+std::filesystem::path shared_data() { return source_folder() / "../shared/data"; }
+
+std::filesystem::path program() { return ONMESH_PROGRAM; }
+
+}  // namespace onmesh

@@ -1,0 +1,17 @@
+// Where the project and its program are.
+#pragma once
+
+#include <filesystem>
+
+namespace onmesh {
+
+/// The project's root.
+std::filesystem::path source_folder();
+
+/// The folder of large meshes beside the project; it may not be there.
+std::filesystem::path shared_data();
+
+/// The program `onmesh` of this build.
+std::filesystem::path program();
+
+}  // namespace onmesh
