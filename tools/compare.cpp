@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "inputs.h"
+#include "onmesh/base/text.h"
 #include "texture_choice.h"
 
 namespace onmesh::tools {
@@ -41,7 +42,7 @@ Image read_other(const std::string& path, const std::string& first, const Image&
   Image image = read_image(path);
   const auto size = [](const Image& i) {
     return std::to_string(i.width) + " x " + std::to_string(i.height) + " with " +
-           std::to_string(i.channels) + (i.channels == 1 ? " channel" : " channels");
+           count_text(std::uint64_t(i.channels), "channel", "channels");
   };
   if (size(image) != size(like))
     throw InputError(path + ": " + size(image) + " cannot be compared with " + first + ": " +

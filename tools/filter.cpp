@@ -7,7 +7,7 @@
 #include "command.h"
 #include "inputs.h"
 #include "onmesh/filter/filter.h"
-#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh_io/read_mesh.h"
 #include "texture_choice.h"
 
 namespace onmesh::tools {

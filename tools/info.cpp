@@ -6,6 +6,7 @@
 
 #include "command.h"
 #include "inputs.h"
+#include "onmesh/base/text.h"
 #include "onmesh/measure/image_difference.h"
 #include "onmesh/measure/mesh_report.h"
 
@@ -240,7 +241,7 @@ void print_texture(const TextureFacts& t) {
   std::cout << (t.path.empty() ? "at " : "texture " + t.path + ", ") << t.width << " x "
             << t.height;
   if (t.channels > 0)
-    std::cout << ", " << t.channels << (t.channels == 1 ? " channel" : " channels");
+    std::cout << ", " << count_text(std::uint64_t(t.channels), "channel", "channels");
   std::cout << '\n';
   const double texels = double(t.width) * t.height;
   row("covered texels", format_count(t.covered) + " (" + percent(double(t.covered) / texels) + ")");

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh_io/read_mesh.h"
 #include "texture_choice.h"
 
 namespace onmesh::tools {

@@ -9,7 +9,7 @@
 #include "onmesh/atlas/texel_map.h"
 #include "onmesh/filter/length.h"
 #include "onmesh/image/image.h"
-#include "onmesh/mesh/triangle_mesh.h"
+#include "onmesh/mesh/clean.h"
 
 namespace onmesh::tools {
 

@@ -7,7 +7,7 @@
 
 #include "command.h"
 #include "onmesh/image/image.h"
-#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh_io/write_obj.h"
 #include "onmesh/procedural/texture.h"
 
 namespace onmesh::tools {

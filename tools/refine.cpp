@@ -9,7 +9,7 @@
 #include "command.h"
 #include "inputs.h"
 #include "onmesh/filter/length.h"
-#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/mesh_io/write_ply.h"
 
 namespace onmesh::tools {

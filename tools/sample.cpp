@@ -13,7 +13,7 @@
 #include "onmesh/atlas/claim_lookup.h"
 #include "onmesh/atlas/texel_map.h"
 #include "onmesh/filter/length.h"
-#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/mesh_io/write_ply.h"
 #include "onmesh/poisson/poisson.h"
 

@@ -6,7 +6,7 @@
 #include "command.h"
 #include "inputs.h"
 #include "onmesh/image/image.h"
-#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/render/render.h"
 #include "onmesh/render/texture_view.h"
 #include "ply_column.h"
@@ -148,12 +148,12 @@ class MaterialTextures {
   std::map<std::string, std::unique_ptr<Image>> images_;
 };
 
-std::vector<Image> flat_pictures(const po::variables_map& values, const RenderOptions& options) {
+std::vector<Image> texture_views(const po::variables_map& values, const RenderOptions& options) {
   std::vector<std::string> paths = texts_of(values, "after");
   paths.insert(paths.begin(), text_of(values, "texture"));
   std::vector<Image> pictures;
   for (const std::string& path : paths) {
-    pictures.push_back(flat_picture(read_image(path), options.width, options.supersampling));
+    pictures.push_back(view_texture(read_image(path), options.width, options.supersampling));
     check_interrupted();
   }
   return pictures;
@@ -214,13 +214,13 @@ int run_view(const std::vector<std::string>& arguments) {
   check_writable_image(output, make_image(1, 1, 3));
   const std::vector<Image> pictures =
       flag_of(values, "flat")
-          ? flat_pictures(values, options)
+          ? texture_views(values, options)
           : model_pictures(argument_of(command, values, "mesh"), values, options);
   check_interrupted();
   ImageWriteOptions eight_bits;
   eight_bits.bits = 8;
   std::vector<std::string> warnings;
-  write_image(output, beside(pictures), eight_bits, &warnings);
+  write_image(output, side_by_side(pictures), eight_bits, &warnings);
   warn(warnings);
   return 0;
 }

@@ -9,7 +9,7 @@
 #include "onmesh/base/error.h"
 #include "onmesh/measure/distance_error.h"
 #include "onmesh/measure/mesh_report.h"
-#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/procedural/shapes.h"
 #include "onmesh/procedural/texture.h"
 #include "support/closed_forms.h"

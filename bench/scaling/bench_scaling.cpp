@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/procedural/shapes.h"
 #include "scaling/scaling_case.h"
 

@@ -4,24 +4,17 @@
 #include <cmath>
 #include <filesystem>
 
-#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh/clean.h"
+#include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/nodes/half_edge_mesh.h"
 #include "support/paths.h"
+#include "support/small_meshes.h"
 
 using namespace onmesh;
 using Catch::Matchers::Contains;
 using Face = std::array<Index, 3>;
 
 namespace {
-
-TriangleMesh make(std::vector<Vec3> positions, std::vector<Face> faces) {
-  TriangleMesh mesh;
-  mesh.positions = std::move(positions);
-  mesh.faces = std::move(faces);
-  mesh.face_uvs.assign(mesh.faces.size(), {kNone, kNone, kNone});
-  mesh.face_materials.assign(mesh.faces.size(), kNone);
-  return mesh;
-}
 
 /// n x n squares over [0,1]^2, UVs = position * scale + offset.
 TriangleMesh make_grid(Index n, Vec2 scale = {1, 1}, Vec2 offset = {0, 0}) {
@@ -110,18 +103,18 @@ TEST_CASE("holes, components and bow ties are counted apart", "[classify]") {
 
 TEST_CASE("branching, turned and one-sided surfaces are told apart", "[classify]") {
   const std::vector<Vec3> p = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
-  MeshReport r = classify(make(p, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
+  MeshReport r = classify(bare_mesh(p, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
   CHECK(r.nonmanifold_edges == 1);
   CHECK(r.nonmanifold_vertices == 0);
   CHECK(r.inconsistent_edges == 0);
-  r = classify(make(p, {{0, 1, 2}, {0, 1, 3}}));
+  r = classify(bare_mesh(p, {{0, 1, 2}, {0, 1, 3}}));
   CHECK(r.inconsistent_edges == 1);
   CHECK(r.orientable);
   CHECK(r.manifold());
   // Five triangles of a Moebius strip.
   std::vector<Vec3> ring;
   for (int i = 0; i < 5; ++i) ring.emplace_back(std::cos(1.2566 * i), std::sin(1.2566 * i), i % 2);
-  r = classify(make(ring, {{0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {3, 0, 4}, {4, 0, 1}}));
+  r = classify(bare_mesh(ring, {{0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {3, 0, 4}, {4, 0, 1}}));
   CHECK_FALSE(r.orientable);
   CHECK(r.boundary_loops == 1);
 }
@@ -131,7 +124,7 @@ TEST_CASE("degenerate and duplicate faces are counted, at any scale", "[classify
     std::vector<Vec3> p = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}, {0, 0, 1e-4}};
     for (Vec3& v : p) v *= scale;
     const MeshReport r =
-        classify(make(p, {{0, 1, 2}, {2, 1, 0}, {1, 2, 0}, {0, 3, 1}, {0, 0, 1}, {0, 1, 4}}));
+        classify(bare_mesh(p, {{0, 1, 2}, {2, 1, 0}, {1, 2, 0}, {0, 3, 1}, {0, 0, 1}, {0, 1, 4}}));
     CHECK(r.degenerate_faces == 2);  // not the thin one
     CHECK(r.duplicate_faces == 2);
     CHECK(r.faces_without_uvs == 6);
@@ -226,13 +219,13 @@ TEST_CASE("absurd UVs and coordinates are reported, not stumbled over", "[classi
   TriangleMesh huge = make_grid(2);
   for (Vec3& p : huge.positions) p *= 1e200;
   CHECK(classify(huge).components == 1);
-  CHECK(classify(make({}, {})).components == 0);
+  CHECK(classify(bare_mesh({}, {})).components == 0);
 }
 
 TEST_CASE("advice names every finding with its number", "[classify]") {
   TriangleMesh mesh =
-      make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {2, 0, 0}, {2, 1, 0}},
-           {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {0, 1, 4}, {2, 2, 1}, {1, 5, 6}});
+      bare_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {2, 0, 0}, {2, 1, 0}},
+                {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {0, 1, 4}, {2, 2, 1}, {1, 5, 6}});
   std::string all;
   for (const std::string& line : advice(classify(mesh))) {
     CHECK(line.find('\n') == std::string::npos);

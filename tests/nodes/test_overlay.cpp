@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <random>
 
-#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/nodes/intrinsic_triangulation.h"
 #include "onmesh/nodes/overlay.h"
 #include "onmesh/nodes/refine.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "onmesh/image/image.h"
-#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh_io/read_mesh.h"
 #include "support/paths.h"
 #include "support/run_program.h"
 

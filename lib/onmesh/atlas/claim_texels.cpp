@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "onmesh/base/error.h"
+#include "onmesh/base/parallel.h"
 
 namespace onmesh {
 namespace {

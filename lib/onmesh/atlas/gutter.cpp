@@ -11,6 +11,7 @@
 #include "onmesh/atlas/gutter_texels.h"
 #include "onmesh/atlas/unfolded_walk.h"
 #include "onmesh/atlas/uv_triangle.h"
+#include "onmesh/base/parallel.h"
 
 namespace onmesh {
 namespace {

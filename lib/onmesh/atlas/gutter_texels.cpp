@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "onmesh/atlas/uv_triangle.h"
+#include "onmesh/base/parallel.h"
+#include "onmesh/base/triangle.h"
 
 namespace onmesh {
 namespace {

@@ -10,11 +10,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
 
 #include "onmesh/atlas/claim_texels.h"
 #include "onmesh/atlas/uv_triangle.h"
+#include "onmesh/base/disjoint_sets.h"
 #include "onmesh/base/error.h"
+#include "onmesh/base/parallel.h"
+#include "onmesh/base/triangle.h"
 
 namespace onmesh {
 namespace {
@@ -76,29 +78,20 @@ void make_transforms(const Atlas& atlas) {
 /// Number the charts in the order of their first faces.
 void make_charts(const Atlas& atlas) {
   const std::size_t faces = atlas.mesh.faces.size();
-  std::vector<Index> parent(faces);
-  std::iota(parent.begin(), parent.end(), Index(0));
-  const auto root = [&](Index f) {
-    while (parent[f] != f) f = parent[f] = parent[parent[f]];
-    return f;
-  };
+  DisjointSets charts(faces);
   for (Index f = 0; f < faces; ++f) {
     if (!atlas.used[f]) continue;
     for (int k = 0; k < 3; ++k)
-      atlas.neighbours.across_edge(f, k, [&](Index g) {
-        const Index a = root(f), b = root(g);
-        parent[std::max(a, b)] = std::min(a, b);
-      });
+      atlas.neighbours.across_edge(f, k, [&](Index g) { charts.join(f, g); });
   }
   // Faces that are not rasterised hold a chart together but have no number.
-  atlas.map.chart_of_face.assign(faces, kNone);
-  std::vector<Index> number(faces, kNone);
+  std::vector<Index> roots(faces, kNone);
   for (Index f = 0; f < faces; ++f) {
-    if (!atlas.rasterised(f)) continue;
-    Index& n = number[root(f)];
-    if (n == kNone) n = atlas.map.charts++;
-    atlas.map.chart_of_face[f] = n;
+    if (atlas.rasterised(f)) roots[f] = charts.find(f);
   }
+  NumberedSets numbered = number_sets(std::move(roots));
+  atlas.map.chart_of_face = std::move(numbered.numbers);
+  atlas.map.charts = numbered.count;
 }
 
 /// Mark every texel whose square a chart meets.
@@ -161,8 +154,8 @@ Vec3 TexelMap::barycentric(Index face, const TexelClaim& claim) const {
   for (int k = 0; k < 3; ++k) {
     const int l = (k + 1) % 3;
     double t = 0;
-    const double d = squared_distance_to_segment(centre.head<2>(), corners.col(k).head<2>(),
-                                                 corners.col(l).head<2>(), &t);
+    const double d = squared_distance_to_segment<2>(centre.head<2>(), corners.col(k).head<2>(),
+                                                    corners.col(l).head<2>(), &t);
     if (d >= least) continue;
     least = d;
     best = Vec3::Zero();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "onmesh/atlas/texel_map.h"
+#include "onmesh/base/triangle.h"
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {
@@ -29,9 +30,6 @@ struct WalkEnd {
   Vec2 point;            ///< in the plane
   bool arrived = false;  ///< else the way is barred at the point, on the face's border
 };
-
-/// Barycentric coordinates in a triangle of the plane; not finite if it has no area.
-Vec3 barycentric_in(const std::array<Vec2, 3>& triangle, const Vec2& p);
 
 class UnfoldedWalk {
  public:

@@ -2,12 +2,10 @@
 
 #include <limits>
 
+#include "onmesh/base/plane.h"
+#include "onmesh/base/triangle.h"
+
 namespace onmesh {
-namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-}  // namespace
 
 Vec2 to_pixels(const Vec2& uv, int width, int height) {
   return {uv.x() * width, (1 - uv.y()) * height};
@@ -22,14 +20,6 @@ double pixel_tolerance(const TriangleMesh& mesh, const std::vector<bool>& used, 
       largest = std::max(largest, to_pixels(uv, width, height).cwiseAbs().maxCoeff());
   }
   return std::max(1e-9, 16 * std::numeric_limits<double>::epsilon() * largest);
-}
-
-double squared_distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b, double* t) {
-  const Vec2 d = b - a;
-  const double length2 = d.squaredNorm();
-  const double s = length2 > 0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0.0;
-  if (t != nullptr) *t = s;
-  return (p - (a + s * d)).squaredNorm();
 }
 
 PixelTriangle::PixelTriangle(const TriangleMesh& mesh, Index face, int width, int height,

@@ -2,9 +2,6 @@
 // (internal: the texel map and the gutter are made with it).
 #pragma once
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,15 +12,6 @@
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {
-
-/// body(i) for every i below size, in any order and on all threads.
-template <class Body>
-void parallel_over(std::size_t size, Body&& body) {
-  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, size, 16),
-                            [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
-                              for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
-                            });
-}
 
 /// A UV triangle in pixels: x = u W to the right, y = (1 - v) H down, texel centres at +.5.
 struct PixelTriangle {
@@ -77,10 +65,6 @@ Vec2 to_pixels(const Vec2& uv, int width, int height);
 /// they are not that exact.
 double pixel_tolerance(const TriangleMesh& mesh, const std::vector<bool>& used, int width,
                        int height);
-
-/// Squared distance from a segment, and the parameter in [0,1] of the closest point on it.
-double squared_distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b,
-                                   double* t = nullptr);
 
 /// The faces around each UV index, to find who shares an edge or a vertex of a chart: there both
 /// the position and the UV are the same.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "onmesh/base/error.h"
+#include "onmesh/base/text.h"
 #include "onmesh/nodes/remoteness.h"
 #include "onmesh/poisson/spacing_field.h"
 
@@ -51,10 +52,6 @@ void check_options(const TriangleMesh& mesh, const FilterOptions& options) {
   if (!options.faces.empty() && options.faces.size() != mesh.faces.size()) {
     throw UsageError("faces: one entry per face of the mesh is needed");
   }
-}
-
-std::string count_text(Index count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
 std::string faces_text(Index count) { return count_text(count, "face", "faces"); }
@@ -140,10 +137,10 @@ void check_overlaps(const TexelMap& map, const std::vector<Index>& overlapped, O
                     std::vector<std::string>& warnings) {
   if (overlapped.empty()) return;
   const auto width = static_cast<Index>(map.width);
-  const std::string what =
-      std::to_string(overlapped.size()) + (overlapped.size() == 1 ? " texel is" : " texels are") +
-      " claimed by several places of the surface, the first at column " +
-      std::to_string(overlapped[0] % width) + ", row " + std::to_string(overlapped[0] / width);
+  const std::string what = count_text(overlapped.size(), "texel is", "texels are") +
+                           " claimed by several places of the surface, the first at column " +
+                           std::to_string(overlapped[0] % width) + ", row " +
+                           std::to_string(overlapped[0] / width);
   if (overlap == Overlap::error) throw InputError("--overlap error: " + what);
   warnings.push_back(what + (overlap == Overlap::average
                                  ? "; they get the mean of the results (--overlap average)"

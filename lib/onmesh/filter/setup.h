@@ -2,6 +2,7 @@
 #pragma once
 
 #include "onmesh/filter/filter.h"
+#include "onmesh/mesh/clean.h"
 #include "onmesh/nodes/refine.h"
 
 namespace onmesh {

@@ -8,6 +8,7 @@
 #include "onmesh/atlas/unfolded_walk.h"
 #include "onmesh/atlas/uv_triangle.h"
 #include "onmesh/base/error.h"
+#include "onmesh/base/parallel.h"
 
 namespace onmesh {
 namespace {

@@ -6,26 +6,16 @@
 #include <limits>
 
 #include "onmesh/atlas/uv_overlap.h"
+#include "onmesh/base/disjoint_sets.h"
+#include "onmesh/base/text.h"
+#include "onmesh/mesh/coincident_faces.h"
+#include "onmesh/mesh/components.h"
 #include "onmesh/mesh/edge_table.h"
+#include "onmesh/mesh/vertex_fans.h"
+#include "onmesh/mesh/winding.h"
 
 namespace onmesh {
 namespace {
-
-/// Number the sets of `roots` in the order of their first face; kNone stays.
-std::vector<Index> number_roots(std::vector<Index> roots, Index& count) {
-  Index highest = 0;
-  for (const Index root : roots) {
-    if (root != kNone) highest = std::max(highest, root);
-  }
-  std::vector<Index> number(std::size_t{highest} + 1, kNone);
-  count = 0;
-  for (Index& root : roots) {
-    if (root == kNone) continue;
-    if (number[root] == kNone) number[root] = count++;
-    root = number[root];
-  }
-  return roots;
-}
 
 /// The UV index that a face has at a vertex.
 Index uv_at(const TriangleMesh& mesh, Index face, Index vertex) {
@@ -41,18 +31,6 @@ void count_edges(const EdgeTable& edges, MeshReport& r) {
     r.nonmanifold_edges += sides > 2;
     r.inconsistent_edges += edges.inconsistent(e);
   }
-}
-
-void find_components(const TriangleMesh& mesh, MeshReport& r) {
-  DisjointSets vertices(mesh.positions.size());
-  for (const auto& f : mesh.faces) {
-    vertices.join(f[0], f[1]);
-    vertices.join(f[0], f[2]);
-  }
-  std::vector<Index> roots;
-  roots.reserve(mesh.faces.size());
-  for (const auto& f : mesh.faces) roots.push_back(vertices.find(f[0]));
-  r.component_of_face = number_roots(std::move(roots), r.components);
 }
 
 void find_charts(const TriangleMesh& mesh, const EdgeTable& edges, MeshReport& r) {
@@ -81,7 +59,9 @@ void find_charts(const TriangleMesh& mesh, const EdgeTable& edges, MeshReport& r
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     if (mesh.has_uvs(f) && !has_repeated_vertex(mesh.faces[f])) roots[f] = charts.find(f);
   }
-  r.chart_of_face = number_roots(std::move(roots), r.charts);
+  NumberedSets numbered = number_sets(std::move(roots));
+  r.chart_of_face = std::move(numbered.numbers);
+  r.charts = numbered.count;
 }
 
 /// Boundary edges that meet in the same fan follow each other on a loop; at a bow tie several loops
@@ -141,10 +121,6 @@ void measure_uvs(const TriangleMesh& mesh, MeshReport& r) {
   r.density_max = quantile(0.99);
 }
 
-std::string count_of(Index count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
   std::array<char, 256> buffer;
@@ -166,7 +142,9 @@ MeshReport classify(const TriangleMesh& welded) {
   for (const Index first : earlier_copies(welded)) r.duplicate_faces += first != kNone;
   const EdgeTable edges(welded);
   count_edges(edges, r);
-  find_components(welded, r);
+  FaceComponents components = connected_components(welded);
+  r.component_of_face = std::move(components.of_face);
+  r.components = components.count;
   find_charts(welded, edges, r);
   DisjointSets fans = join_fans(welded, edges);
   r.boundary_loops = count_boundary_loops(welded, edges, fans);
@@ -182,13 +160,13 @@ MeshReport classify(const TriangleMesh& welded) {
 std::vector<std::string> advice(const MeshReport& r) {
   std::vector<std::string> lines;
   if (r.nonmanifold_edges > 0) {
-    lines.push_back(count_of(r.nonmanifold_edges, "edge has", "edges have") +
+    lines.push_back(count_text(r.nonmanifold_edges, "edge has", "edges have") +
                     " three or more faces: the filter goes on into each of them; split "
                     " or remove the extra faces if they are not meant to be there");
   }
   if (r.nonmanifold_vertices > 0) {
     lines.push_back(
-        count_of(r.nonmanifold_vertices, "vertex joins", "vertices join") +
+        count_text(r.nonmanifold_vertices, "vertex joins", "vertices join") +
         " parts of the surface that share no edge there: the filter goes on through it; give each "
         "part a vertex of its own if they should be apart");
   }
@@ -198,17 +176,17 @@ std::vector<std::string> advice(const MeshReport& r) {
         "but normals cannot agree on it; cut it open along a line of edges if that is not meant");
   } else if (r.inconsistent_edges > 0) {
     lines.push_back(
-        count_of(r.inconsistent_edges, "edge has", "edges have") +
+        count_text(r.inconsistent_edges, "edge has", "edges have") +
         " faces of opposite winding: turn over the smaller part (filtering does so by itself)");
   }
   if (r.degenerate_faces > 0) {
     lines.push_back(
-        count_of(r.degenerate_faces, "face has", "faces have") +
+        count_text(r.degenerate_faces, "face has", "faces have") +
         " no area and cannot carry texture: remove them if they are not meant to be there");
   }
   if (r.duplicate_faces > 0) {
     lines.push_back(
-        count_of(r.duplicate_faces, "face repeats", "faces repeat") +
+        count_text(r.duplicate_faces, "face repeats", "faces repeat") +
         " an earlier one, like the back of two-sided cloth: those with UVs of their own are "
         "filtered as sheets of their own, the others are left out");
   }
@@ -218,16 +196,16 @@ std::vector<std::string> advice(const MeshReport& r) {
     return lines;
   }
   if (r.faces_without_uvs > 0) {
-    lines.push_back(count_of(r.faces_without_uvs, "face has", "faces have") +
+    lines.push_back(count_text(r.faces_without_uvs, "face has", "faces have") +
                     " no UVs: they are part of the surface but carry no texture");
   }
   if (r.degenerate_uvs > 0) {
     lines.push_back(
-        count_of(r.degenerate_uvs, "face has", "faces have") +
+        count_text(r.degenerate_uvs, "face has", "faces have") +
         " UVs without area, which give it no texels: unwrap them again if they should be filtered");
   }
   if (r.mirrored_faces > 0 && r.mirrored_faces + r.degenerate_uvs < textured) {
-    lines.push_back(count_of(r.mirrored_faces, "face has", "faces have") +
+    lines.push_back(count_text(r.mirrored_faces, "face has", "faces have") +
                     " mirrored UVs: harmless for filtering, but check that texts and normal maps "
                     "are meant to be so");
   }

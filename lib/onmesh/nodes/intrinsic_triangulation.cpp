@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "onmesh/base/error.h"
+#include "onmesh/base/plane.h"
+#include "onmesh/base/triangle.h"
 
 namespace onmesh {
 namespace {
@@ -14,8 +16,6 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 Vec2 rotated(const Vec2& v, const Vec2& by) {
   return {v.x() * by.x() - v.y() * by.y(), v.x() * by.y() + v.y() * by.x()};
 }
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // Connectivity from OpenMesh with half-edges in the order of the faces' corners.
 HalfEdges flat_half_edges(const TriangleMesh& mesh, const HalfEdgeMesh& half_edges) {

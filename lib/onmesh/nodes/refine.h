@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "onmesh/mesh/clean.h"
 #include "onmesh/nodes/half_edge_mesh.h"
 #include "onmesh/nodes/overlay.h"
 

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <queue>
 
+#include "onmesh/mesh/vertex_fans.h"
+
 namespace onmesh {
 namespace {
 

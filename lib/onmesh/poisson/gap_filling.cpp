@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "onmesh/mesh/closest_point.h"
+#include "onmesh/base/triangle.h"
 
 namespace onmesh {
 
