@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "onmesh/image/image_io.h"
 #include "onmesh/mesh_io/mesh_io.h"
 #include "texture_choice.h"
 

@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 
 #include "onmesh/base/error.h"
-#include "onmesh/measure/image_difference.h"
+#include "onmesh/image/lookup.h"
 #include "onmesh/procedural/shapes.h"
 #include "onmesh/render/raster.h"
 #include "onmesh/render/render.h"

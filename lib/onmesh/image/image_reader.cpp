@@ -1,14 +1,12 @@
-#include "onmesh/image/image.h"
+#include "onmesh/image/image_reader.h"
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <new>
 
 #include "onmesh/base/error.h"
-#include "onmesh/image/native_pixels.h"
 
 namespace onmesh {
 namespace {
@@ -87,22 +85,6 @@ void check_readable(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::vector<int> Image::range_channels() const {
-  std::vector<int> result;
-  for (int c = 0; c < channels; ++c)
-    if (c != alpha_channel) result.push_back(c);
-  return result;
-}
-
-Image make_image(int width, int height, int channels) {
-  Image image;
-  image.width = width;
-  image.height = height;
-  image.channels = channels;
-  image.pixels.assign(std::size_t(width) * std::size_t(height) * std::size_t(channels), 0.0F);
-  return image;
-}
-
 int rows_at_a_time(const OIIO::ImageSpec& spec) {
   constexpr int kRows = 256;
   if (spec.tile_width == 0 || spec.tile_height < 1) return kRows;
@@ -156,41 +138,6 @@ void ImageReader::read(const std::function<void(std::span<const std::byte>, int,
       refuse(path_, "the file is truncated or damaged: " + why);
     }
     take(std::span(buffer).first(row_bytes * std::size_t(rows)), row, rows);
-  }
-}
-
-Image read_image(const std::filesystem::path& path) {
-  try {
-    ImageReader reader(path);
-    const OIIO::ImageSpec& spec = reader.spec();
-    auto source = std::make_shared<Image::Source>();
-    source->spec = spec;
-    source->format = reader.format();
-    source->types = reader.types();
-    Image image;
-    image.width = spec.width;
-    image.height = spec.height;
-    image.channels = spec.nchannels;
-    image.alpha_channel = spec.alpha_channel < spec.nchannels ? spec.alpha_channel : -1;
-    image.channel_names.assign(spec.channelnames.begin(), spec.channelnames.end());
-    const bool keep_native =
-        !std::all_of(source->types.begin(), source->types.end(), survives_float);
-    const std::size_t pixels = std::size_t(spec.width) * std::size_t(spec.height);
-    // Reserved memory is not touched before its rows have been decoded, so that a small file that
-    // claims to be huge costs nothing.
-    image.pixels.reserve(pixels * std::size_t(spec.nchannels));
-    if (keep_native) source->native.reserve(pixels * pixel_bytes(source->types));
-    reader.read([&](std::span<const std::byte> native, int, int rows) {
-      const std::size_t before = image.pixels.size();
-      const std::size_t count = std::size_t(rows) * std::size_t(spec.width);
-      image.pixels.resize(before + count * std::size_t(spec.nchannels));
-      to_float(native.data(), source->types, count, image.pixels.data() + before);
-      if (keep_native) source->native.insert(source->native.end(), native.begin(), native.end());
-    });
-    image.source = std::move(source);
-    return image;
-  } catch (const std::bad_alloc&) {
-    refuse(path, "not enough memory to read the image");
   }
 }
 

@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "onmesh/base/error.h"
-#include "onmesh/measure/image_difference.h"
+#include "onmesh/image/lookup.h"
 #include "onmesh/render/raster.h"
 #include "onmesh/render/texture_view.h"
 
