@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "onmesh/atlas/uv_triangle.h"
+#include "onmesh/base/parallel.h"
 
 namespace onmesh {
 namespace {
