@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "onmesh/measure/distance_error.h"
+#include "onmesh/measure/nearby_geodesics.h"
 #include "onmesh/mesh/closest_point.h"
 #include "onmesh/samples/samples.h"
 
