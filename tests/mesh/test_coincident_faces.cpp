@@ -56,7 +56,7 @@ TEST_CASE("a two-sided flag becomes two sheets, in whatever order its faces come
     CHECK(report.manifold());
     CHECK(cleaned.faces.size() == 48);
     CHECK(cleaned.positions.size() == 2 * 5 * 4);
-    const MeshReport r = classify(cleaned);
+    const MeshReport r = report_mesh(cleaned);
     CHECK(r.components == 2);
     CHECK(r.duplicate_faces == 0);
     // Each component has the faces of one side.
@@ -76,7 +76,7 @@ TEST_CASE("front faces stay one sheet across seams of their atlas", "[sheets]") 
   CleanReport report;
   const TriangleMesh cleaned = clean(weld(flag), &report);
   CHECK(report.manifold());
-  CHECK(classify(cleaned).components == 2);
+  CHECK(report_mesh(cleaned).components == 2);
 }
 
 TEST_CASE("copies with the same texels are dropped, those without texels give way", "[sheets]") {
@@ -121,7 +121,7 @@ TEST_CASE("a decal leaves the wall, which stays in one piece", "[sheets]") {
     const TriangleMesh cleaned = clean(mesh, &report);
     CHECK(report.separated == 4);
     CHECK(report.manifold());
-    const MeshReport r = classify(cleaned);
+    const MeshReport r = report_mesh(cleaned);
     CHECK(r.components == 2);
     CHECK(r.boundary_edges == 12 + 6);
     std::vector<int> faces(2, 0);
@@ -141,7 +141,7 @@ TEST_CASE("a two-sided Moebius strip becomes its orientable double cover", "[she
   CHECK(report.manifold());
   CHECK(cleaned.faces.size() == 2 * strip.faces.size());
   CHECK(cleaned.positions.size() == 2 * strip.positions.size());
-  const MeshReport r = classify(cleaned);
+  const MeshReport r = report_mesh(cleaned);
   CHECK(r.components == 1);
   CHECK(r.boundary_loops == 2);
   CHECK(r.orientable);
@@ -160,7 +160,7 @@ TEST_CASE("two layers with the same winding are told apart by their UVs", "[shee
   CleanReport report;
   const TriangleMesh cleaned = clean(mesh, &report);
   CHECK(report.manifold());
-  const MeshReport r = classify(cleaned);
+  const MeshReport r = report_mesh(cleaned);
   CHECK(r.components == 2);
   CHECK(r.charts == 2);
 }
