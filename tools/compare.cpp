@@ -1,6 +1,4 @@
 // onmesh compare: how two textures differ, and how visible their seams are.
-#include "onmesh/measure/image_difference.h"
-
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -8,6 +6,9 @@
 #include "command.h"
 #include "inputs.h"
 #include "onmesh/base/text.h"
+#include "onmesh/image/image_io.h"
+#include "onmesh/measure/image_difference.h"
+#include "onmesh/measure/seam_error.h"
 #include "texture_choice.h"
 
 namespace onmesh::tools {

@@ -12,6 +12,8 @@
 #include "distance_compare.h"
 #include "inputs.h"
 #include "onmesh/filter/length.h"
+#include "onmesh/image/image_io.h"
+#include "onmesh/measure/nearby_geodesics.h"
 #include "onmesh/mesh_io/write_ply.h"
 #include "onmesh/nodes/bridge.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "onmesh/base/plane.h"
-#include "onmesh/measure/distance_error.h"
+#include "onmesh/measure/nearby_geodesics.h"
 #include "onmesh/mesh/closest_point.h"
 #include "onmesh/samples/samples.h"
 

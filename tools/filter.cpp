@@ -7,6 +7,7 @@
 #include "command.h"
 #include "inputs.h"
 #include "onmesh/filter/filter.h"
+#include "onmesh/image/image_io.h"
 #include "onmesh/mesh_io/read_mesh.h"
 #include "texture_choice.h"
 

@@ -7,8 +7,9 @@
 #include "command.h"
 #include "inputs.h"
 #include "onmesh/base/text.h"
-#include "onmesh/measure/image_difference.h"
+#include "onmesh/image/image_io.h"
 #include "onmesh/measure/mesh_report.h"
+#include "onmesh/measure/seam_error.h"
 
 namespace onmesh::tools {
 namespace {
@@ -330,7 +331,7 @@ int run_info(const std::vector<std::string>& arguments) {
   const InputMesh input = read_input_mesh(path);
   check_interrupted();
   Findings findings;
-  findings.mesh = classify(input.welded);
+  findings.mesh = report_mesh(input.welded);
   check_interrupted();
   examine_textures(input, values, findings);
   check_interrupted();

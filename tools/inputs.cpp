@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "onmesh/image/image_io.h"
 #include "onmesh/mesh_io/read_mesh.h"
 #include "texture_choice.h"
 

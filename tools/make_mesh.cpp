@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "command.h"
-#include "onmesh/image/image.h"
+#include "onmesh/image/image_io.h"
 #include "onmesh/mesh_io/write_obj.h"
 #include "onmesh/procedural/texture.h"
 

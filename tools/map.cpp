@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "inputs.h"
+#include "onmesh/image/image_io.h"
 
 namespace onmesh::tools {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "command.h"
 #include "inputs.h"
-#include "onmesh/image/image.h"
+#include "onmesh/image/image_io.h"
 #include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/render/render.h"
 #include "onmesh/render/texture_view.h"

@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "onmesh/base/error.h"
-#include "onmesh/measure/distance_error.h"
 #include "onmesh/measure/mesh_report.h"
+#include "onmesh/measure/nearby_geodesics.h"
 #include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/procedural/shapes.h"
 #include "onmesh/procedural/texture.h"
@@ -95,7 +95,7 @@ std::vector<Subject> built_in_subjects(bool quick) {
 Subject subject_from_file(const std::string& path, int size) {
   return {std::filesystem::path(path).stem().string(), size, [path] { return read_mesh(path); },
           [path](const TriangleMesh& mesh, double radius) {
-            if (!classify(mesh).manifold())
+            if (!report_mesh(mesh).manifold())
               throw InputError(path + ": not manifold, so exact distances are not known");
             return exact_truth(mesh, radius);
           }};

@@ -275,7 +275,7 @@ TEST_CASE("on flat faces no path is shorter than the straight line, however thin
 /// Other colours in the texels of one component.
 Image repaint(const TriangleMesh& mesh, const Image& texture, Index component) {
   const TexelMap map = make_texel_map(mesh, texture.width, texture.height);
-  const MeshReport report = classify(mesh);
+  const MeshReport report = report_mesh(mesh);
   Image image = texture;
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     if (report.component_of_face[f] != component) continue;
@@ -290,7 +290,7 @@ Image repaint(const TriangleMesh& mesh, const Image& texture, Index component) {
 /// Largest difference of two images in the texels of one component.
 double difference(const TriangleMesh& mesh, const Image& a, const Image& b, Index component) {
   const TexelMap map = make_texel_map(mesh, a.width, a.height);
-  const MeshReport report = classify(mesh);
+  const MeshReport report = report_mesh(mesh);
   double worst = 0;
   std::size_t texels = 0;
   for (Index f = 0; f < mesh.faces.size(); ++f) {

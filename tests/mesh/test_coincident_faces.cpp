@@ -52,7 +52,7 @@ TEST_CASE("a two-sided flag becomes two sheets, in whatever order its faces come
     CHECK(report.manifold());
     CHECK(cleaned.faces.size() == 48);
     CHECK(cleaned.positions.size() == 2 * 5 * 4);
-    const MeshReport r = classify(cleaned);
+    const MeshReport r = report_mesh(cleaned);
     CHECK(r.components == 2);
     CHECK(r.duplicate_faces == 0);
     // Each component has the faces of one side.
@@ -72,7 +72,7 @@ TEST_CASE("front faces stay one sheet across seams of their atlas", "[coincident
   CleanReport report;
   const TriangleMesh cleaned = clean(weld(flag), &report);
   CHECK(report.manifold());
-  CHECK(classify(cleaned).components == 2);
+  CHECK(report_mesh(cleaned).components == 2);
 }
 
 TEST_CASE("copies with the same texels are dropped, those without texels give way",
@@ -118,7 +118,7 @@ TEST_CASE("a decal leaves the wall, which stays in one piece", "[coincident_face
     const TriangleMesh cleaned = clean(mesh, &report);
     CHECK(report.separated == 4);
     CHECK(report.manifold());
-    const MeshReport r = classify(cleaned);
+    const MeshReport r = report_mesh(cleaned);
     CHECK(r.components == 2);
     CHECK(r.boundary_edges == 12 + 6);
     std::vector<int> faces(2, 0);
@@ -138,7 +138,7 @@ TEST_CASE("a two-sided Moebius strip becomes its orientable double cover", "[coi
   CHECK(report.manifold());
   CHECK(cleaned.faces.size() == 2 * strip.faces.size());
   CHECK(cleaned.positions.size() == 2 * strip.positions.size());
-  const MeshReport r = classify(cleaned);
+  const MeshReport r = report_mesh(cleaned);
   CHECK(r.components == 1);
   CHECK(r.boundary_loops == 2);
   CHECK(r.orientable);
@@ -157,7 +157,7 @@ TEST_CASE("two layers with the same winding are told apart by their UVs", "[coin
   CleanReport report;
   const TriangleMesh cleaned = clean(mesh, &report);
   CHECK(report.manifold());
-  const MeshReport r = classify(cleaned);
+  const MeshReport r = report_mesh(cleaned);
   CHECK(r.components == 2);
   CHECK(r.charts == 2);
 }

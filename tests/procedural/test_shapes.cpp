@@ -92,7 +92,7 @@ TEST_CASE("the Moebius strip is one-sided, closed, and true to its chart", "[sha
   for (const int n : {1, 2, 5}) {
     for (const double width : {1.0, 0.3}) {
       const TriangleMesh mesh = make_moebius(n, 8, width);
-      const MeshReport r = classify(mesh);
+      const MeshReport r = report_mesh(mesh);
       CHECK_FALSE(r.orientable);
       CHECK(r.nonmanifold_edges + r.nonmanifold_vertices == 0);
       CHECK(r.components == 1);
@@ -118,7 +118,7 @@ TEST_CASE("the Moebius strip is one-sided, closed, and true to its chart", "[sha
 }
 
 TEST_CASE("the bow tie's halves share one vertex and nothing else", "[shapes]") {
-  const MeshReport r = classify(make_bow_tie(3));
+  const MeshReport r = report_mesh(make_bow_tie(3));
   CHECK(r.nonmanifold_vertices == 1);
   CHECK(r.nonmanifold_edges == 0);
   CHECK(r.components == 1);

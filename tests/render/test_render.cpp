@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "onmesh/base/error.h"
-#include "onmesh/measure/image_difference.h"
+#include "onmesh/image/lookup.h"
 #include "onmesh/procedural/shapes.h"
 #include "support/pictures.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "onmesh/image/image.h"
+#include "onmesh/image/image_io.h"
 #include "support/paths.h"
 #include "support/run_program.h"
 

@@ -11,17 +11,18 @@
 #include <functional>
 #include <limits>
 
+#include "onmesh/atlas/charts.h"
 #include "onmesh/atlas/claim_texels.h"
 #include "onmesh/atlas/uv_triangle.h"
 #include "onmesh/base/disjoint_sets.h"
 #include "onmesh/base/error.h"
 #include "onmesh/base/parallel.h"
 #include "onmesh/base/triangle.h"
+#include "onmesh/mesh/edge_table.h"
 
 namespace onmesh {
 namespace {
 
-constexpr std::int64_t kStripRows = 256;
 constexpr double kMostTiles = 1 << 14;
 constexpr double kFurthestTexel = 1 << 30;
 
@@ -57,12 +58,9 @@ void make_transforms(const Atlas& atlas) {
   parallel_over(faces, [&](std::size_t i) {
     const Index f = Index(i);
     if (!atlas.used[f]) return;
-    const PixelTriangle t = atlas.triangle(f);
-    const auto p = atlas.mesh.corners(f);
-    const double surface = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
-    const double texel = surface / std::abs(t.area);
-    if (t.flat || !(texel > 0) || !std::isfinite(texel)) return;
-    atlas.map.texel_area[f] = texel;
+    const UvTriangle t = atlas.triangle(f);
+    atlas.map.texel_area[f] = texel_area(atlas.mesh, f, t);
+    if (!(atlas.map.texel_area[f] > 0)) return;
     auto& m = atlas.map.to_barycentric_[f];
     for (int k = 0; k < 3; ++k) {
       const Vec2 &a = t.corners[std::size_t((k + 1) % 3)], &b = t.corners[std::size_t((k + 2) % 3)];
@@ -75,23 +73,13 @@ void make_transforms(const Atlas& atlas) {
   });
 }
 
-/// Number the charts in the order of their first faces.
+/// Number the charts of the rasterised faces.
 void make_charts(const Atlas& atlas) {
-  const std::size_t faces = atlas.mesh.faces.size();
-  DisjointSets charts(faces);
-  for (Index f = 0; f < faces; ++f) {
-    if (!atlas.used[f]) continue;
-    for (int k = 0; k < 3; ++k)
-      atlas.neighbours.across_edge(f, k, [&](Index g) { charts.join(f, g); });
-  }
-  // Faces that are not rasterised hold a chart together but have no number.
-  std::vector<Index> roots(faces, kNone);
-  for (Index f = 0; f < faces; ++f) {
-    if (atlas.rasterised(f)) roots[f] = charts.find(f);
-  }
-  NumberedSets numbered = number_sets(std::move(roots));
-  atlas.map.chart_of_face = std::move(numbered.numbers);
-  atlas.map.charts = numbered.count;
+  std::vector<bool> rasterised(atlas.mesh.faces.size());
+  for (Index f = 0; f < rasterised.size(); ++f) rasterised[f] = atlas.rasterised(f);
+  Charts charts = find_charts(atlas.neighbours, atlas.used, rasterised);
+  atlas.map.chart_of_face = std::move(charts.chart_of_face);
+  atlas.map.charts = charts.count;
 }
 
 /// Mark every texel whose square a chart meets.
@@ -100,7 +88,7 @@ void mark_touched(const Atlas& atlas, const std::vector<Strip>& strips) {
   atlas.map.coverage.assign(width * std::size_t(atlas.map.height), Coverage::none);
   parallel_over(strips.size(), [&](std::size_t i) {
     const Strip& strip = strips[i];
-    const PixelTriangle t = atlas.triangle(strip.face);
+    const UvTriangle t = atlas.triangle(strip.face);
     for (std::int32_t row = strip.begin; row < strip.end; ++row) {
       auto columns = t.columns(row, atlas.tolerance);
       atlas.clip(columns, atlas.map.width);
@@ -119,22 +107,13 @@ void mark_touched(const Atlas& atlas, const std::vector<Strip>& strips) {
 
 }  // namespace
 
-std::vector<Strip> make_strips(const Atlas& atlas) {
-  std::vector<Strip> strips;
-  for (Index f = 0; f < atlas.mesh.faces.size(); ++f) {
-    if (!atlas.rasterised(f)) continue;
-    auto rows = atlas.triangle(f).rows(atlas.tolerance);
-    atlas.clip(rows, atlas.map.height);
-    for (auto row = rows.first; row < rows.second; row += kStripRows)
-      strips.push_back(
-          {f, std::int32_t(row), std::int32_t(std::min(row + kStripRows, rows.second))});
-  }
-  return strips;
+TexelClaim TexelMap::square_at(const Vec2& uv) const {
+  const Vec2 pixel = to_pixels(uv, width, height);
+  return {std::int32_t(std::floor(pixel.x())), std::int32_t(std::floor(pixel.y()))};
 }
 
 Index TexelMap::texel_at(const Vec2& uv) const {
-  TexelClaim square{static_cast<std::int32_t>(std::floor(uv.x() * width)),
-                    static_cast<std::int32_t>(std::floor((1 - uv.y()) * height))};
+  TexelClaim square = square_at(uv);
   if (wrap == Wrap::clamp) {
     square.x = std::clamp(square.x, 0, width - 1);
     square.y = std::clamp(square.y, 0, height - 1);
@@ -235,7 +214,8 @@ TexelMap make_texel_map(const TriangleMesh& mesh, int width, int height,
   map.wrap = options.wrap;
   std::vector<bool> used(mesh.faces.size());
   for (Index f = 0; f < used.size(); ++f)
-    used[f] = mesh.has_uvs(f) && (options.faces.empty() || options.faces[f]);
+    used[f] = mesh.has_uvs(f) && !has_repeated_vertex(mesh.faces[f]) &&
+              (options.faces.empty() || options.faces[f]);
   check(mesh, used, map);
   const UvNeighbours neighbours(mesh, used);
   const Atlas atlas{mesh, map, used, neighbours, pixel_tolerance(mesh, used, width, height)};

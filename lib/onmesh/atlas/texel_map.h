@@ -2,16 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "onmesh/base/large_array.h"
+#include "onmesh/image/lookup.h"
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {
-
-/// How UVs outside [0,1] are read.
-enum class Wrap { repeat, clamp };
 
 enum class Coverage : std::uint8_t {
   none,     ///< no chart meets the texel's square
@@ -26,13 +23,15 @@ struct TexelClaim {
 };
 
 /// Per input face, the texels whose centre lies inside or on its UV triangle (within 1e-9 texel),
-/// ordered by row, then column. A centre on an edge or vertex shared by several faces of one chart
-/// belongs to the lowest face index; a chart without any centre claims the one texel it overlaps
-/// most, through the face closest to that texel's centre. A chart is a set of faces connected over
-/// edges whose UV indices agree on both sides; faces without UV or surface area are not rasterised.
+/// ordered by row, then column.
+///
+/// A centre on an edge or vertex shared by several faces of one chart belongs to the lowest face
+/// index; a chart without any centre claims the one texel it overlaps most, through the face
+/// closest to that texel's centre. A chart is a set of faces connected over edges whose UV indices
+/// agree on all sides (find_charts()). Faces without UV or surface area are not rasterised.
 class TexelMap {
  public:
-  int width = 0, height = 0;
+  int width = 0, height = 0;  ///< texels
   Wrap wrap = Wrap::repeat;
   std::vector<Index> face_offsets;  ///< faces + 1, into claims
   LargeArray<TexelClaim> claims;
@@ -51,6 +50,8 @@ class TexelMap {
     };
     return Index(wrapped(claim.y, height)) * Index(width) + Index(wrapped(claim.x, width));
   }
+  /// The texel whose square holds the UV, not wrapped.
+  TexelClaim square_at(const Vec2& uv) const;
   /// Index of the texel whose square holds the UV, wherever it lies: wrapped, or clamped to the
   /// image.
   Index texel_at(const Vec2& uv) const;
@@ -65,10 +66,10 @@ class TexelMap {
   /// Covered texels that are 8-neighbours of another chart's, ascending: bilinear look-ups between
   /// the two mix both charts, and no gutter fits in.
   std::vector<Index> crowded() const;
-  /// Median over claims of the square root of the texel's surface area: the unit "tx".
+  /// Median over claims of the square root of the texel's surface area, mesh units: the unit "tx".
   double median_texel_size() const;
 
-  std::vector<Eigen::Matrix3d> to_barycentric_;
+  std::vector<Eigen::Matrix3d> to_barycentric_;  ///< per face; zero where it is not rasterised
 };
 
 struct TexelMapOptions {
@@ -76,11 +77,13 @@ struct TexelMapOptions {
   std::vector<bool> faces;  ///< faces that carry the texture; empty = all with UVs
 };
 
-/// Texel (i, j) of a W x H image has its centre at u = (i + .5) / W, v = 1 - (j + .5) / H.
-/// Faces without UVs, with a zero-area UV triangle or without surface area claim nothing.
-/// \pre mesh is welded; width, height > 0
+/// Find out which texels of a width x height image lie on which face.
+///
+/// Texel (i, j) has its centre at u = (i + .5) / width, v = 1 - (j + .5) / height. Faces without
+/// UVs, with a vertex twice, with a zero-area UV triangle or without surface area claim nothing.
 /// With Wrap::clamp, texels outside the image are not claimed. The result does not depend on the
 /// number of threads.
+/// \pre mesh is welded; width, height > 0
 /// \throw InputError if a face's UVs are not finite, span more than 2^14 tiles or lie further than
 ///   2^30 texels away, or if more than 2^31 texels are claimed
 TexelMap make_texel_map(const TriangleMesh& mesh, int width, int height,

@@ -22,8 +22,11 @@ struct MeshReport {
   Index faces_without_uvs = 0;     ///< some corner has no UV
   Index degenerate_uvs = 0;        ///< UVs present, but the UV triangle has no area
   Index mirrored_faces = 0;        ///< UV triangle runs clockwise
-  Index charts = 0;                ///< components connected over edges with equal UVs on both sides
-  double surface_area = 0, diagonal = 0;
+  /// Faces connected over edges with equal UVs on all sides, as make_texel_map() counts them for
+  /// each texture: parts without area or UV area, which hold no texels, do not count.
+  Index charts = 0;
+  double surface_area = 0;  ///< mesh units squared
+  double diagonal = 0;      ///< of the bounding box, mesh units
   /// Texel density: square root of UV area over surface area, in 1 / mesh unit; the 1 % and 99 %
   /// quantiles by surface area over faces that have both areas (0 if there are none). A texture W
   /// texels wide has W times as many texels per mesh unit.
@@ -35,7 +38,7 @@ struct MeshReport {
   Index max_overlap = 0;
   Vec2 uv_min = Vec2::Zero(), uv_max = Vec2::Zero();
   std::vector<Index> component_of_face;
-  std::vector<Index> chart_of_face;  ///< kNone where UVs are missing or a vertex is repeated
+  std::vector<Index> chart_of_face;  ///< kNone where a face holds no texels
 
   /// No non-manifold edge or vertex, orientable. (clean() may still mend what this counts.)
   bool manifold() const {
@@ -43,7 +46,9 @@ struct MeshReport {
   }
 };
 
-MeshReport classify(const TriangleMesh& welded);
+/// Examine a mesh.
+/// \pre mesh is welded
+MeshReport report_mesh(const TriangleMesh& mesh);
 
 /// The report's findings that a user should act on, one sentence each with what to do.
 std::vector<std::string> advice(const MeshReport& report);

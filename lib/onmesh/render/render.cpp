@@ -11,7 +11,7 @@
 
 #include "onmesh/base/error.h"
 #include "onmesh/base/triangle.h"
-#include "onmesh/measure/image_difference.h"
+#include "onmesh/image/lookup.h"
 #include "onmesh/render/camera.h"
 #include "onmesh/render/raster.h"
 #include "onmesh/render/texture_view.h"

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "onmesh/atlas/texel_map.h"
 #include "onmesh/image/image.h"
+#include "onmesh/image/lookup.h"
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {

@@ -13,7 +13,7 @@ namespace onmesh {
 struct Sample {
   Index texel = 0;  ///< whose colour it carries
   float b1 = 0, b2 = 0;
-  float area = 0;  ///< surface area it stands for
+  float area = 0;  ///< surface area it stands for, mesh units squared
 };
 
 /// Samples of all node faces; those of face f are [face_offsets[f], face_offsets[f + 1]).
@@ -24,16 +24,19 @@ struct Samples {
 
 /// Texel quadrature: every claim of the map is one sample, within a face in the order of input
 /// faces and texels.
+/// \param surface over the map's mesh
+/// \throw NumericError if a face with claims is too thin to be laid out between the nodes
 Samples texel_samples(const TexelMap& map, const NodeSurface& surface);
 
 /// Equal-area samples at surface points, with the colour of the texel whose square holds their UV.
-/// \param area what each sample stands for
+/// \param area what each sample stands for, mesh units squared
 Samples point_samples(const TriangleMesh& mesh, const TexelMap& map, const NodeSurface& surface,
                       const std::vector<SurfacePoint>& points, double area);
 
-/// Samples at surface points that share the surface area of the texels they hit (ClaimLookup): each
-/// stands for its texel's area, as texel_samples() has it, divided by the number of points there.
-/// Points that hit no texel of their own chart carry padding colour and are left out.
+/// Samples at surface points that share the surface area of the texels they hit (ClaimLookup).
+///
+/// Each stands for its texel's area, as texel_samples() has it, divided by the number of points
+/// there. Points that hit no texel of their own chart carry padding colour and are left out.
 Samples sharing_samples(const TriangleMesh& mesh, const TexelMap& map, const NodeSurface& surface,
                         const std::vector<SurfacePoint>& points);
 
