@@ -47,11 +47,13 @@ class ChartLookup {
   void gather(const LaidFace& laid, const Vec2& from, const Vec2& pixel, const PixelFrame& frame,
               std::vector<Support>& supports) const;
 
-  /// The value at position 0 of the linear function fitted to the supports (weighted least
-  /// squares), within their range. \return false, and nothing set, if there are no supports
+  /// The value at position 0 of the linear function fitted to the supports by weighted least
+  /// squares, within their range.
+  /// \return false, and nothing set, if there are no supports
   bool fit(const std::vector<Support>& supports, float* values) const;
 
-  /// The supports' weighted mean. \pre there are some
+  /// The supports' weighted mean.
+  /// \pre there are some
   void mean(const std::vector<Support>& supports, float* values) const;
 
  private:
