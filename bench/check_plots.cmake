@@ -1,7 +1,8 @@
 # What the checks of the benchmarks' programs share.
 
-# Draws plots of one kind into the CSV file's folder and checks that every picture has as many points
-# as there are numbers: check_plots(KIND file.csv picture.svg points [picture.svg points]...).
+# Draws plots of one kind into the CSV file's folder and checks that every picture has as many markers
+# as there are numbers, and one per name in its legend:
+# check_plots(KIND file.csv picture.svg markers [picture.svg markers]...).
 # Without gnuplot it says so, and so must bench/make_plots.
 function(check_plots kind csv)
   set(make_plots ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/make_plots)
@@ -24,12 +25,10 @@ function(check_plots kind csv)
   while(ARGN)
     list(POP_FRONT ARGN picture expected)
     file(READ ${folder}/${picture} plot)
-    string(REGEX MATCHALL "<use [^>]*#gpPt[0-9]+' transform=" points "${plot}")
-    list(LENGTH points count)
-    # One more per name in the legend.
-    math(EXPR most "${expected} + 5")
-    if(count LESS_EQUAL expected OR count GREATER most OR plot MATCHES "[ >,]-?(nan|inf)[ <,]")
-      message(FATAL_ERROR "${picture} has ${count} markers for ${expected} numbers")
+    string(REGEX MATCHALL "<use [^>]*#gpPt[0-9]+' transform=" markers "${plot}")
+    list(LENGTH markers count)
+    if(NOT count EQUAL expected OR plot MATCHES "[ >,]-?(nan|inf)[ <,]")
+      message(FATAL_ERROR "${picture} has ${count} markers instead of ${expected}, or no numbers")
     endif()
   endwhile()
 endfunction()

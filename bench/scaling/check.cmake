@@ -51,17 +51,21 @@ if(NOT readme MATCHES "^before\n<!-- scaling: begin -->\n.*\n[|] ${texture} .*\n
   message(FATAL_ERROR "the tables are not where they should be:\n${readme}")
 endif()
 
-# Every line of the CSV file is a point.
+# Every line of the CSV file is a point of a plot, every series in it a name in the legend.
 file(STRINGS ${WORK}/scaling.csv rows)
 set(pictures)
 foreach(family texels sigma threads mesh_size)
   set(of_family ${rows})
   list(FILTER of_family INCLUDE REGEX "^${family},[^,]+,[^,]+,[0-9]+,[0-9.e-]+$")
   list(LENGTH of_family points)
-  if(points LESS 4)
+  if(points LESS 2)
     message(FATAL_ERROR "scaling.csv has ${points} times by ${family}")
   endif()
-  list(APPEND pictures scaling-${family}.svg ${points})
+  list(TRANSFORM of_family REPLACE "^[^,]+,[^,]+,([^,]+),.*" "\\1" OUTPUT_VARIABLE series)
+  list(REMOVE_DUPLICATES series)
+  list(LENGTH series names)
+  math(EXPR markers "${points} + ${names}")
+  list(APPEND pictures scaling-${family}.svg ${markers})
 endforeach()
 check_plots(scaling ${WORK}/scaling.csv ${pictures})
 
