@@ -9,7 +9,7 @@
 #include "backends/observer.h"
 #include "onmesh/filter/patch_loop.h"
 
-namespace onmesh::compare {
+namespace onmesh::bench {
 namespace {
 
 /// True distances where the filter has its back end.
@@ -248,4 +248,4 @@ Row measure_euclidean(const Scene& scene, const NodeTruth& truth) {
   return row;
 }
 
-}  // namespace onmesh::compare
+}  // namespace onmesh::bench

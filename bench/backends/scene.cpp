@@ -14,7 +14,7 @@
 #include "onmesh/procedural/texture.h"
 #include "support/closed_forms.h"
 
-namespace onmesh::compare {
+namespace onmesh::bench {
 namespace {
 
 constexpr double kSigmaRange = 0.2;
@@ -138,4 +138,4 @@ Scene make_scene(const Subject& subject, double sigma_texels, std::size_t texels
   return scene;
 }
 
-}  // namespace onmesh::compare
+}  // namespace onmesh::bench

@@ -10,7 +10,7 @@
 #include "onmesh/samples/samples.h"
 #include "support/brute_force.h"
 
-namespace onmesh::compare {
+namespace onmesh::bench {
 
 /// A mesh to compare on.
 struct Subject {
@@ -56,4 +56,4 @@ Scene make_scene(const Subject& subject, double sigma_texels, std::size_t texels
 /// CPU time of this thread.
 double thread_seconds();
 
-}  // namespace onmesh::compare
+}  // namespace onmesh::bench

@@ -1,5 +1,5 @@
 // The whole filter at many sizes, with OpenCV's 2D filter beside it (see scaling_case.h).
-#include "scaling/bench_scaling.h"
+#include "scaling/families.h"
 
 #include <tbb/info.h>
 
