@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "command.h"
+#include "onmesh/version.h"
 
 namespace {
 
@@ -72,7 +73,7 @@ int run(const std::vector<std::string>& arguments, std::string& name) {
     return 0;
   }
   if (first == "--version") {
-    std::cout << "onmesh " ONMESH_VERSION "\n";
+    std::cout << "onmesh " << onmesh::version() << "\n";
     return 0;
   }
   if (help) {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "onmesh/version.h"
 
 namespace onmesh::tools {
 namespace {
@@ -99,7 +100,7 @@ void check_interrupted() {
 }
 
 nlohmann::json new_report(const std::string& command) {
-  return {{"onmesh", ONMESH_VERSION}, {"command", command}};
+  return {{"onmesh", onmesh::version()}, {"command", command}};
 }
 
 void print_report(nlohmann::json report) {
