@@ -2,7 +2,6 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <map>
 #include <string>
 
 #include "onmesh/atlas/texel_map.h"
@@ -13,6 +12,7 @@
 #include "support/mesh_parts.h"
 #include "support/paths.h"
 #include "support/small_meshes.h"
+#include "support/texel_claims.h"
 
 using namespace onmesh;
 using Catch::Matchers::Contains;
@@ -178,21 +178,6 @@ TEST_CASE("advice names every finding with its number", "[mesh_report]") {
 }
 
 namespace {
-
-/// How many charts make_texel_map() finds, over all textures.
-Index charts_on_map(const TriangleMesh& mesh) {
-  std::map<std::string, std::vector<bool>> faces_with;
-  for (Index f = 0; f < mesh.faces.size(); ++f) {
-    const Index material = mesh.face_materials[f];
-    const std::string texture = material == kNone ? "" : mesh.materials[material].texture;
-    const auto faces = faces_with.try_emplace(texture, mesh.faces.size(), false).first;
-    faces->second[f] = true;
-  }
-  Index charts = 0;
-  for (const auto& [texture, faces] : faces_with)
-    charts += make_texel_map(mesh, 512, 512, {Wrap::repeat, faces}).charts;
-  return charts;
-}
 
 void check_charts(const TriangleMesh& mesh) {
   const MeshReport r = report_mesh(mesh);

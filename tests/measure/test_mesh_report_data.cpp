@@ -6,6 +6,7 @@
 #include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/nodes/half_edge_mesh.h"
 #include "support/paths.h"
+#include "support/texel_claims.h"
 
 using namespace onmesh;
 using Catch::Matchers::Contains;
@@ -22,6 +23,7 @@ struct Row {
 };
 
 // spot_quad: the index fans its pentagons (15 mirrored triangles, 0.2 % overlap), we do better.
+// kenney_flag, spider: the index counts 6 and 35 charts, all or 16 of them without UV area.
 const std::vector<Row> kRows = {
     {"thesis_cube/cube.obj", 8, 8, 12, 1, 0, 0, 0, 0, 0, 0, 0, 4, 2, 4, 0, 0, 1.7, true},
     {"spot/cow.obj", 2930, 2930, 5856, 1, 0, 0, 0, 0, 0, 0, 0, 13, 1, 177, 0, 0, 8.9, true},
@@ -31,8 +33,8 @@ const std::vector<Row> kRows = {
     {"fuze/fuze.obj", 502, 502, 1000, 1, 0, 0, 0, 0, 0, 0, 0, 8, 2, 128, 0, 0, 4.5, true},
     {"fuze/fuze.ply", 502, 502, 1000, 1, 0, 0, 0, 0, 0, 0, 0, 8, 2, 128, 0, 0, 4.5, true},
     {"wood_plane/wood.obj", 4, 4, 2, 1, 4, 1, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, true},
-    {"kenney_flag/flag.obj", 232, 76, 132, 5, 0, 0, 17, 0, 0, 0, 18, 6, 0, 0, 132, 0, 0, true},
-    {"spider/spider.obj", 762, 722, 1368, 18, 72, 6, 0, 0, 10, 56, 36, 35, 16, 546, 176, 1, 11.9,
+    {"kenney_flag/flag.obj", 232, 76, 132, 5, 0, 0, 17, 0, 0, 0, 18, 0, 0, 0, 132, 0, 0, true},
+    {"spider/spider.obj", 762, 722, 1368, 18, 72, 6, 0, 0, 10, 56, 36, 19, 16, 546, 176, 1, 11.9,
      true},
     {"pizza_scan/pizza.obj", 24916, 24916, 49954, 1, 168, 1, 0, 0, 0, 0, 0, 4740, 1, 49954, 0, 0,
      1.3, true},
@@ -73,6 +75,7 @@ TEST_CASE("the counts of real meshes are those of their index", "[mesh_report][d
     CHECK(r.degenerate_faces == row.degenerate);
     CHECK(r.duplicate_faces == row.duplicates);
     CHECK(r.charts == row.charts);
+    CHECK(r.charts == charts_on_map(welded));
     CHECK(r.mirrored_faces == row.mirrored);
     CHECK(r.degenerate_uvs == row.flat);
     CHECK(r.orientable);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "onmesh/atlas/texel_map.h"
@@ -68,6 +70,21 @@ inline double claimed_area(const TexelMap& map) {
   for (std::size_t f = 0; f < map.texel_area.size(); ++f)
     sum += map.texel_area[f] * (map.face_offsets[f + 1] - map.face_offsets[f]);
   return sum;
+}
+
+/// How many charts make_texel_map() finds, over all textures.
+inline Index charts_on_map(const TriangleMesh& mesh) {
+  std::map<std::string, std::vector<bool>> faces_with;
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    const Index material = mesh.face_materials[f];
+    const std::string texture = material == kNone ? "" : mesh.materials[material].texture;
+    const auto faces = faces_with.try_emplace(texture, mesh.faces.size(), false).first;
+    faces->second[f] = true;
+  }
+  Index charts = 0;
+  for (const auto& [texture, faces] : faces_with)
+    charts += make_texel_map(mesh, 512, 512, {Wrap::repeat, faces}).charts;
+  return charts;
 }
 
 }  // namespace onmesh
