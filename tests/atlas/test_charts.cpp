@@ -4,6 +4,7 @@
 
 #include "onmesh/mesh/edge_table.h"
 #include "support/atlas_meshes.h"
+#include "support/small_meshes.h"
 
 using namespace onmesh;
 
@@ -77,9 +78,7 @@ TEST_CASE("a face with a vertex twice has no edges to join charts by", "[charts]
   TriangleMesh mesh = flat({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2}, {0, 2, 3}});
   mesh.uvs.emplace_back(0.5, 0.5);
   mesh.face_uvs[1][0] = 4;
-  mesh.faces.push_back({0, 0, 2});
-  mesh.face_uvs.push_back({0, 4, 2});
-  mesh.face_materials.push_back(kNone);
+  add_face(mesh, {0, 0, 2}, {0, 4, 2});
   CHECK(charts_of(mesh).chart_of_face == std::vector<Index>{0, 1, kNone});
 }
 

@@ -7,6 +7,7 @@
 #include "onmesh/procedural/shapes.h"
 #include "support/cut_meshes.h"
 #include "support/mesh_parts.h"
+#include "support/small_meshes.h"
 
 using namespace onmesh;
 

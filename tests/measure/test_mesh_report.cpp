@@ -224,9 +224,7 @@ TEST_CASE("the report and the texel map agree on charts of odd faces, too", "[me
   mesh = textured_square(1);
   mesh.uvs.emplace_back(0.25, 0.5);
   mesh.face_uvs[1][0] = 4;
-  mesh.faces.push_back({mesh.faces[0][0], mesh.faces[0][0], mesh.faces[0][2]});
-  mesh.face_uvs.push_back({mesh.face_uvs[0][0], 4, mesh.face_uvs[0][2]});
-  mesh.face_materials.push_back(kNone);
+  add_face(mesh, {0, 0, 3}, {0, 4, 3});
   check_charts(mesh);
   CHECK(report_mesh(mesh).charts == 2);
   // Four faces around an edge, two and two with the same UVs.

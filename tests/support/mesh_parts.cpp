@@ -1,20 +1,10 @@
 #include "support/mesh_parts.h"
 
 #include <random>
-#include <utility>
 
 #include "onmesh/procedural/shapes.h"
 
 namespace onmesh {
-
-TriangleMesh bare_mesh(std::vector<Vec3> positions, std::vector<std::array<Index, 3>> faces) {
-  TriangleMesh mesh;
-  mesh.positions = std::move(positions);
-  mesh.faces = std::move(faces);
-  mesh.face_uvs.assign(mesh.faces.size(), {kNone, kNone, kNone});
-  mesh.face_materials.assign(mesh.faces.size(), kNone);
-  return mesh;
-}
 
 TriangleMesh textured_square(int n, const Vec2& scale, const Vec2& offset) {
   TriangleMesh mesh = make_plane(n, n);

@@ -1,4 +1,4 @@
-// Meshes from lists and from other meshes.
+// Meshes from other meshes, and points on them.
 #pragma once
 
 #include <vector>
@@ -6,9 +6,6 @@
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {
-
-/// A mesh without UVs and materials.
-TriangleMesh bare_mesh(std::vector<Vec3> positions, std::vector<std::array<Index, 3>> faces);
 
 /// [0,1]^2 in n x n cells of two triangles, UV = position * scale + offset.
 TriangleMesh textured_square(int n, const Vec2& scale = {1, 1}, const Vec2& offset = {0, 0});

@@ -1,6 +1,5 @@
 #include "onmesh/atlas/claim_lookup.h"
 
-#include "onmesh/base/parallel.h"
 namespace onmesh {
 
 ClaimLookup::ClaimLookup(const TexelMap& map)

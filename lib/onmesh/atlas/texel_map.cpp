@@ -14,7 +14,6 @@
 #include "onmesh/atlas/charts.h"
 #include "onmesh/atlas/claim_texels.h"
 #include "onmesh/atlas/uv_triangle.h"
-#include "onmesh/base/disjoint_sets.h"
 #include "onmesh/base/error.h"
 #include "onmesh/base/parallel.h"
 #include "onmesh/base/triangle.h"
