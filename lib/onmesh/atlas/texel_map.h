@@ -10,6 +10,7 @@
 
 namespace onmesh {
 
+/// What charts have of a texel.
 enum class Coverage : std::uint8_t {
   none,     ///< no chart meets the texel's square
   touched,  ///< a chart meets the square but not the centre: padding colour, filled as gutter
@@ -19,7 +20,8 @@ enum class Coverage : std::uint8_t {
 /// A texel claimed by a face: unwrapped column and row (row 0 on top, may be negative or beyond the
 /// image where UVs leave [0,1]).
 struct TexelClaim {
-  std::int32_t x = 0, y = 0;
+  std::int32_t x = 0;  ///< column
+  std::int32_t y = 0;  ///< row
 };
 
 /// Per input face, the texels whose centre lies inside or on its UV triangle (within 1e-9 texel),
@@ -31,15 +33,16 @@ struct TexelClaim {
 /// agree on all sides (find_charts()). Faces without UV or surface area are not rasterised.
 class TexelMap {
  public:
-  int width = 0, height = 0;  ///< texels
-  Wrap wrap = Wrap::repeat;
+  int width = 0;                    ///< texels
+  int height = 0;                   ///< texels
+  Wrap wrap = Wrap::repeat;         ///< how UVs outside [0,1] are read
   std::vector<Index> face_offsets;  ///< faces + 1, into claims
-  LargeArray<TexelClaim> claims;
-  std::vector<double>
-      texel_area;  ///< per face: surface area of one whole texel; 0 = not rasterised
+  LargeArray<TexelClaim> claims;    ///< those of face f are [face_offsets[f], face_offsets[f + 1])
+  /// Per face the surface area of one whole texel, mesh units squared; 0 = not rasterised.
+  std::vector<double> texel_area;
   std::vector<Coverage> coverage;    ///< width * height
   std::vector<Index> chart_of_face;  ///< chart number, kNone = not rasterised
-  Index charts = 0;
+  Index charts = 0;                  ///< number of charts
 
   /// Texel index (row * width + column) of a claim, wrapped into the image.
   Index texel(const TexelClaim& claim) const {
@@ -72,9 +75,10 @@ class TexelMap {
   std::vector<Eigen::Matrix3d> to_barycentric_;  ///< per face; zero where it is not rasterised
 };
 
+/// What make_texel_map() takes for the atlas.
 struct TexelMapOptions {
-  Wrap wrap = Wrap::repeat;
-  std::vector<bool> faces;  ///< faces that carry the texture; empty = all with UVs
+  Wrap wrap = Wrap::repeat;  ///< how UVs outside [0,1] are read
+  std::vector<bool> faces;   ///< faces that carry the texture; empty = all with UVs
 };
 
 /// Find out which texels of a width x height image lie on which face.

@@ -16,7 +16,9 @@ namespace onmesh {
 /// channel names, metadata, untouched pixels) travels along, so that writing an image that nobody
 /// changed gives the same pixels bit for bit.
 struct Image {
-  int width = 0, height = 0, channels = 0;
+  int width = 0;                           ///< texels
+  int height = 0;                          ///< texels
+  int channels = 0;                        ///< values per texel
   int alpha_channel = -1;                  ///< index of the alpha channel, -1 if there is none
   std::vector<float> pixels;               ///< width * height * channels
   std::vector<std::string> channel_names;  ///< one per channel; empty = Y, R G B, R G B A and so on
@@ -28,6 +30,7 @@ struct Image {
   const float* texel(Index i) const {
     return pixels.data() + std::size_t(i) * std::size_t(channels);
   }
+  /// The same, to change them.
   float* texel(Index i) { return pixels.data() + std::size_t(i) * std::size_t(channels); }
   /// Channels that take part in colour differences and are filtered: all but alpha.
   std::vector<int> range_channels() const;

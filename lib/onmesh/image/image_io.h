@@ -18,6 +18,7 @@ namespace onmesh {
 ///   anything is allocated), deep or of several parts
 Image read_image(const std::filesystem::path& path);
 
+/// What write_image() is to do otherwise.
 struct ImageWriteOptions {
   bool force_float = false;  ///< write 32-bit float whatever the source was
   int bits = 0;              ///< 8 or 16: integers of that depth; 0 = as the source

@@ -16,10 +16,12 @@ inline constexpr std::array kComparedMethods{DistanceMethod::unfold, DistanceMet
 
 /// Errors over the points whose exact distance is known.
 struct DistanceError {
-  std::size_t points = 0;             ///< compared
-  std::size_t missed = 0;             ///< with an exact distance, but no other
-  std::size_t leaked = 0;             ///< with a distance although no way leads there
-  double mean = 0, p99 = 0, max = 0;  ///< of |d - exact|, mesh units, over the points compared
+  std::size_t points = 0;  ///< compared
+  std::size_t missed = 0;  ///< with an exact distance, but no other
+  std::size_t leaked = 0;  ///< with a distance although no way leads there
+  double mean = 0;         ///< of |d - exact| over the points compared, mesh units
+  double p99 = 0;          ///< its 99 % quantile, mesh units
+  double max = 0;          ///< mesh units
   /// Error of the Gaussian weights g(d) = exp(-d^2 / 2 sigma^2): the sum of |g(d) - g(exact)| over
   /// the sum of g(exact), so the share of a kernel's weight that is wrong. Where no way leads, the
   /// weight is 0. NaN without a sigma.

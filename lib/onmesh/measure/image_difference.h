@@ -6,11 +6,13 @@
 
 namespace onmesh {
 
+/// How much two images differ.
 struct ImageDifference {
-  double psnr = 0;          ///< dB, peak 1 (infinity when equal)
-  double rms = 0, max = 0;  ///< of the values' differences
-  Index worst_texel = 0;    ///< the first that has the maximum
-  Index texels = 0;         ///< compared
+  double psnr = 0;        ///< dB, peak 1 (infinity when equal)
+  double rms = 0;         ///< root mean square of the values' differences
+  double max = 0;         ///< the largest of them
+  Index worst_texel = 0;  ///< the first that has the maximum
+  Index texels = 0;       ///< compared
 };
 
 /// Compare two images over all channels. Two NaN, or two equal infinities, are equal. The same

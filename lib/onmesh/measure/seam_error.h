@@ -6,10 +6,12 @@
 
 namespace onmesh {
 
+/// How much the two sides of all seams differ.
 struct SeamError {
-  double rms = 0, max = 0;  ///< of the values' differences
-  double length = 0;        ///< surface length of all seams, mesh units
-  Index edges = 0;          ///< seam edges
+  double rms = 0;     ///< root mean square of the values' differences
+  double max = 0;     ///< the largest of them
+  double length = 0;  ///< surface length of all seams, mesh units
+  Index edges = 0;    ///< seam edges
 };
 
 /// Compare bilinear look-ups on both sides of every seam edge (an edge whose two faces carry the

@@ -11,9 +11,10 @@ namespace onmesh {
 
 class TexelMap;
 
+/// What to sample, and how.
 struct PoissonOptions {
-  double spacing = 0;  ///< minimum distance of two samples, mesh units, > 0
-  std::uint64_t seed = 1;
+  double spacing = 0;       ///< minimum distance of two samples, mesh units, > 0
+  std::uint64_t seed = 1;   ///< another seed, other samples
   std::vector<bool> faces;  ///< faces to sample; empty = all with area
 };
 
@@ -41,8 +42,8 @@ std::vector<SurfacePoint> poisson_samples(const TriangleMesh& mesh, const Poisso
 
 /// Samples that each have a spacing of their own.
 struct GradedSamples {
-  std::vector<SurfacePoint> points;
-  std::vector<double> spacings;  ///< mesh units
+  std::vector<SurfacePoint> points;  ///< the samples
+  std::vector<double> spacings;      ///< of each, mesh units
 };
 
 /// Samples that hit every texel claimed on the faces to sample: each has one in its square on its

@@ -12,14 +12,15 @@ namespace onmesh {
 /// A sample in a node face with barycentric coordinates (1 - b1 - b2, b1, b2).
 struct Sample {
   Index texel = 0;  ///< whose colour it carries
-  float b1 = 0, b2 = 0;
-  float area = 0;  ///< surface area it stands for, mesh units squared
+  float b1 = 0;     ///< barycentric, of the face's second corner
+  float b2 = 0;     ///< of its third corner
+  float area = 0;   ///< surface area it stands for, mesh units squared
 };
 
 /// Samples of all node faces; those of face f are [face_offsets[f], face_offsets[f + 1]).
 struct Samples {
-  std::vector<Index> face_offsets;
-  LargeArray<Sample> samples;
+  std::vector<Index> face_offsets;  ///< node faces + 1, into samples
+  LargeArray<Sample> samples;       ///< by node face
 };
 
 /// Texel quadrature: every claim of the map is one sample, within a face in the order of input
