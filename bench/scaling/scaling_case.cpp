@@ -8,9 +8,9 @@
 #include <optional>
 #include <tuple>
 
+#include "onmesh/base/process_memory.h"
 #include "onmesh/procedural/texture.h"
 #include "scaling/planar_filter.h"
-#include "scaling/process_memory.h"
 
 namespace onmesh::bench {
 namespace {

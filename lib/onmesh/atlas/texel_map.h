@@ -81,8 +81,9 @@ struct TexelMapOptions {
 /// \pre mesh is welded; width, height > 0
 /// With Wrap::clamp, texels outside the image are not claimed. The result does not depend on the
 /// number of threads.
-/// \throw InputError if a face's UVs are not finite, span more than 2^14 tiles or lie further than
-///   2^30 texels away, or if more than 2^31 texels are claimed
+/// \throw FaceError<InputError> if a face's UVs are not finite, span more than 2^14 tiles or lie
+///   further than 2^30 texels away
+/// \throw InputError if more than 2^31 texels are claimed
 TexelMap make_texel_map(const TriangleMesh& mesh, int width, int height,
                         const TexelMapOptions& options = {});
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "onmesh/atlas/claim_lookup.h"
-#include "onmesh/base/error.h"
+#include "onmesh/base/face_error.h"
 
 namespace onmesh {
 namespace {
@@ -73,8 +73,7 @@ class PieceFinder {
     const Index first = overlay_.face_offsets[face_], beyond = overlay_.face_offsets[face_ + 1];
     for (Index p = first; p < beyond; ++p) rasterise(p, counts);
     if (first == beyond) {
-      throw NumericError("face " + std::to_string(face_) +
-                         " is too thin to be laid out between the nodes");
+      throw FaceError<NumericError>(face_, "it is too thin to be laid out between the nodes");
     }
     if (std::accumulate(&counts[first], &counts[first] + (beyond - first), Index{0}) == count_)
       return;
