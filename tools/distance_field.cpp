@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "format.h"
 #include "onmesh/measure/distance_error.h"
 #include "onmesh/mesh/closest_point.h"
 #include "onmesh/samples/samples.h"
