@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "format.h"
 #include "onmesh/base/plane.h"
 #include "onmesh/measure/nearby_geodesics.h"
 #include "onmesh/mesh/closest_point.h"

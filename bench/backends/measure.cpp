@@ -55,9 +55,9 @@ Row new_row(const Scene& scene, std::string_view backend) {
   row.mesh = scene.name;
   row.backend = backend;
   row.sigma_texels = scene.sigma_texels;
-  row.spacing = scene.setup.plan.curved_spacing / scene.sigma();
+  row.spacing = scene.setup.lengths.curved_spacing / scene.sigma();
   row.faces = scene.setup.mesh.faces.size();
-  row.texels = scene.setup.plan.texels;
+  row.texels = scene.setup.mesh_plan.texels;
   row.nodes = scene.surface.nodes.nodes.size();
   row.refine_ms = 1e3 * scene.refine_seconds;
   return row;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "numbers.h"
-#include "scaling/process_memory.h"
+#include "onmesh/base/process_memory.h"
 
 namespace onmesh::bench {
 namespace {

@@ -120,8 +120,8 @@ Scene make_scene(const Subject& subject, double sigma_texels, std::size_t texels
     scene.tried_at[scene.points.texels[centres[i]]] = Index(i);
 
   RefineOptions refine_options;
-  refine_options.spacing = scene.setup.plan.curved_spacing;
-  refine_options.finest = scene.setup.plan.finest_spacing;
+  refine_options.spacing = scene.setup.lengths.curved_spacing;
+  refine_options.finest = scene.setup.lengths.finest_spacing;
   const double start = thread_seconds();
   scene.surface = refine(mesh, scene.setup.cleaning, refine_options);
   scene.refine_seconds = thread_seconds() - start;

@@ -43,7 +43,7 @@ struct Scene {
   std::vector<Index> tried_at;       ///< per texel: into tried, or kNone
   std::vector<NodePoint> places;     ///< per texel; face kNone = no claim or more than one
 
-  double sigma() const { return setup.plan.sigma_spatial; }
+  double sigma() const { return setup.lengths.sigma_spatial; }
   Weights weights(FilterKind kind) const;
   Distances truth(double radius) const { return truth_on(setup.mesh, radius); }
 };

@@ -9,9 +9,9 @@
 #include <tuple>
 
 #include "numbers.h"
+#include "onmesh/base/process_memory.h"
 #include "onmesh/procedural/texture.h"
 #include "scaling/planar_filter.h"
-#include "scaling/process_memory.h"
 
 namespace onmesh::bench {
 namespace {

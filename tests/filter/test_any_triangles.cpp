@@ -101,7 +101,7 @@ TEST_CASE("the report says that and why a mesh is not manifold", "[soup]") {
   CHECK(report.warnings.empty());
   options.distance = DistanceMethod::exact;
   CHECK_THROWS_WITH(filter(make_book(3), texture, options),
-                    "--distance exact: the mesh is not manifold (3 edges have more than two "
+                    "distance=exact: the mesh is not manifold (3 edges have more than two "
                     "faces); use unfold");
 }
 

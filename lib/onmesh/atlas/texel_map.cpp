@@ -14,7 +14,7 @@
 #include "onmesh/atlas/charts.h"
 #include "onmesh/atlas/claim_texels.h"
 #include "onmesh/atlas/uv_triangle.h"
-#include "onmesh/base/error.h"
+#include "onmesh/base/face_error.h"
 #include "onmesh/base/parallel.h"
 #include "onmesh/base/triangle.h"
 #include "onmesh/mesh/edge_table.h"
@@ -33,15 +33,14 @@ void check(const TriangleMesh& mesh, const std::vector<bool>& used, const TexelM
     const auto uv = mesh.corner_uvs(f);
     const Vec2 low = uv[0].cwiseMin(uv[1]).cwiseMin(uv[2]);
     const Vec2 high = uv[0].cwiseMax(uv[1]).cwiseMax(uv[2]);
-    const std::string name = "face " + std::to_string(f);
     if (!(uv[0].allFinite() && uv[1].allFinite() && uv[2].allFinite()))
-      throw InputError(name + ": its UVs are not finite");
+      throw FaceError<InputError>(f, "its UVs are not finite");
     if ((high - low).maxCoeff() > kMostTiles)
-      throw InputError(name + ": its UVs span more than 16384 tiles");
+      throw FaceError<InputError>(f, "its UVs span more than 16384 tiles");
     if (std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()) *
             std::max(map.width, map.height) >
         kFurthestTexel)
-      throw InputError(name + ": its UVs lie too far from [0,1]");
+      throw FaceError<InputError>(f, "its UVs lie too far from [0,1]");
     const Vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
     total += std::abs(a.x() * b.y() - a.y() * b.x()) / 2 * map.width * map.height;
   }

@@ -87,9 +87,9 @@ struct TexelMapOptions {
 /// UVs, with a vertex twice, with a zero-area UV triangle or without surface area claim nothing.
 /// With Wrap::clamp, texels outside the image are not claimed. The result does not depend on the
 /// number of threads.
-/// \pre mesh is welded; width, height > 0
-/// \throw InputError if a face's UVs are not finite, span more than 2^14 tiles or lie further than
-///   2^30 texels away, or if more than 2^31 texels are claimed
+/// \throw FaceError<InputError> if a face's UVs are not finite, span more than 2^14 tiles or lie
+///   further than 2^30 texels away
+/// \throw InputError if more than 2^31 texels are claimed
 TexelMap make_texel_map(const TriangleMesh& mesh, int width, int height,
                         const TexelMapOptions& options = {});
 

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <string>
 
-#include "onmesh/base/error.h"
+#include "onmesh/base/face_error.h"
 
 namespace onmesh {
 
@@ -25,8 +24,7 @@ void PieceFinder::run(std::vector<Index>& counts) {
   const Index first = overlay_.face_offsets[face_], beyond = overlay_.face_offsets[face_ + 1];
   for (Index p = first; p < beyond; ++p) rasterise(p, counts);
   if (first == beyond) {
-    throw NumericError("face " + std::to_string(face_) +
-                       " is too thin to be laid out between the nodes");
+    throw FaceError<NumericError>(face_, "it is too thin to be laid out between the nodes");
   }
   if (std::accumulate(&counts[first], &counts[first] + (beyond - first), Index{0}) == count_)
     return;

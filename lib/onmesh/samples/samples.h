@@ -26,7 +26,8 @@ struct Samples {
 /// Texel quadrature: every claim of the map is one sample, within a face in the order of input
 /// faces and texels.
 /// \param surface over the map's mesh
-/// \throw NumericError if a face with claims is too thin to be laid out between the nodes
+/// \throw FaceError<NumericError> if a face with claims is too thin to be laid out between the
+/// nodes
 Samples texel_samples(const TexelMap& map, const NodeSurface& surface);
 
 /// Equal-area samples at surface points, with the colour of the texel whose square holds their UV.

@@ -1,4 +1,6 @@
-#include "scaling/process_memory.h"
+#include "onmesh/base/process_memory.h"
+
+#include <sys/resource.h>
 
 #include <fstream>
 #include <string>
@@ -7,7 +9,7 @@
 #include <malloc.h>
 #endif
 
-namespace onmesh::bench {
+namespace onmesh {
 namespace {
 
 /// A line of /proc/self/status in bytes, 0 if it is not there.
@@ -21,6 +23,18 @@ std::uint64_t status_bytes(const std::string& name) {
 }
 
 }  // namespace
+
+std::uint64_t peak_memory_bytes() {
+  // getrusage() would count what ran in this process before the program did (execve(2)).
+  if (const std::uint64_t bytes = status_bytes("VmHWM"); bytes > 0) return bytes;
+  rusage usage{};
+  if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+#ifdef __APPLE__
+  return static_cast<std::uint64_t>(usage.ru_maxrss);
+#else
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+#endif
+}
 
 MemoryMeter::MemoryMeter() {
 #ifdef __GLIBC__
@@ -37,4 +51,4 @@ std::optional<std::uint64_t> MemoryMeter::peak() const {
   return forgotten_ && bytes > 0 ? std::optional(bytes) : std::nullopt;
 }
 
-}  // namespace onmesh::bench
+}  // namespace onmesh

@@ -1,8 +1,7 @@
 // The program's manners: help, messages, exit codes, what it leaves behind.
-#include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "support/run_program.h"
+#include "tools/tool_checks.h"
 
 using namespace onmesh;
 using Catch::Contains;
@@ -17,21 +16,6 @@ const char* const kSquare =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
     "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
 const char* const kBare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
-
-// Failed runs say why in one line on stderr and nothing on stdout, and leave no file behind.
-void check_refused(const Workspace& space, const std::string& arguments, int code,
-                   const std::string& reason) {
-  INFO("onmesh " << arguments);
-  const auto before = space.files();
-  const Run run = space.run(arguments);
-  INFO(run.err);
-  CHECK(run.code == code);
-  CHECK(run.out.empty());
-  CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
-  CHECK_THAT(run.err, Contains(reason));
-  CHECK(run.err.rfind("onmesh", 0) == 0);
-  CHECK(space.files() == before);
-}
 
 }  // namespace
 
@@ -94,24 +78,6 @@ TEST_CASE("wrong usage exits with 2 and names the option", "[tools]") {
   check_refused(space, "make-mesh dodo -o d.obj", 2, "unknown shape 'dodo'");
 }
 
-TEST_CASE("filter refuses parameters outside their domain with 2", "[tools][filter]") {
-  const Workspace space;
-  space.must("make-mesh plane -o m.obj -t m.png --size 16");
-  const std::string base = "filter m.obj -o o.png ";
-  check_refused(space, base + "--sigma-spatial 0", 2, "--sigma-spatial");
-  check_refused(space, base + "--sigma-spatial -1", 2, "--sigma-spatial");
-  check_refused(space, base + "--sigma-spatial nan", 2, "--sigma-spatial");
-  check_refused(space, base + "--sigma-range 0", 2, "--sigma-range");
-  check_refused(space, base + "--sigma-range nan", 2, "--sigma-range");
-  check_refused(space, base + "--radius 0", 2, "--radius");
-  check_refused(space, base + "--gutter -1", 2, "--gutter");
-  check_refused(space, base + "--kind box", 2, "--kind");
-  check_refused(space, base + "--node-spacing 1e-9", 2, "--node-spacing");
-  check_refused(space, base + "--overlap both", 2, "--overlap");
-  check_refused(space, base + "--sigma-spacial 1", 2, "did you mean --sigma-spatial?");
-  check_refused(space, "filter m.obj", 2, "--output");
-}
-
 TEST_CASE("files that cannot be read or written exit with 4", "[tools]") {
   const Workspace space;
   space.must("make-mesh plane -o m.obj -t m.png --size 16");
@@ -170,34 +136,4 @@ TEST_CASE("wrong input exits with 3 and names the file", "[tools]") {
   check_refused(space, "sample bare.obj -t good.png -o s.ply", 3, "bare.obj: ");
   check_refused(space, "filter good.obj -t text.png -o o.png", 3, "text.png: ");
   check_refused(space, "filter bare.obj -t good.png -o o.png", 3, "bare.obj: ");
-}
-
-TEST_CASE("a picture of the model is written, also from distances", "[tools]") {
-  const Workspace space;
-  space.must("make-mesh sphere --levels 2 -o m.obj -t m.png --size 32");
-  space.must("view m.obj -t m.png --after m.png -o p.png --size 64");
-  space.must("distance m.obj --vertex 0 -o d.ply");
-  space.must("view m.obj --distance-ply d.ply -o d.png --size 64");
-  const Run same = space.run("compare p.png d.png");
-  CHECK(same.code == 3);  // two views side by side are wider
-  CHECK_THAT(same.err, Contains("64 x 64 with 3 channels"));
-}
-
-TEST_CASE("view puts any number of textures beside each other, on the model or flat", "[tools]") {
-  const Workspace space;
-  space.must("make-mesh sphere --levels 2 -o m.obj -t m.png --size 32");
-  space.must("view m.obj -t m.png --after m.png --after m.png -o three.png --size 40 --height 20");
-  CHECK_THAT(space.run("compare three.png m.png").err, Contains("136 x 20 with 3 channels"));
-  space.must("view --flat -t m.png --after m.png --after m.png -o flat.png --size 64");
-  CHECK_THAT(space.run("compare flat.png m.png").err, Contains("208 x 64 with 3 channels"));
-  space.must("view --flat -t m.png -o same.png --size 32");
-  CHECK(space.run("compare same.png m.png --fail 200").code == 0);
-
-  check_refused(space, "view --flat -o p.png", 2, "--texture is missing");
-  check_refused(space, "view m.obj --flat -t m.png -o p.png", 2, "m.obj");
-  check_refused(space, "view --flat -t m.png --zoom 2 -o p.png", 2, "--flat and --zoom");
-  check_refused(space, "view --flat -t m.png --wireframe -o p.png", 2, "--flat and --wireframe");
-  check_refused(space, "view m.obj -t m.png --after no.png -o p.png", 4, "no.png: ");
-  check_refused(space, "view m.obj --face-materials --after m.png -o p.png", 2, "exclude");
-  check_refused(space, "view m.obj --wrap mirror -o p.png", 2, "--wrap");
 }

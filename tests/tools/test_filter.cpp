@@ -1,4 +1,4 @@
-// filter and sample from end to end.
+// filter from end to end.
 #include <signal.h>
 #include <unistd.h>
 
@@ -12,7 +12,7 @@
 
 #include "onmesh/image/image_io.h"
 #include "support/paths.h"
-#include "support/run_program.h"
+#include "tools/tool_checks.h"
 
 using namespace onmesh;
 using Catch::Contains;
@@ -35,6 +35,71 @@ bool catches_interrupts(pid_t process) {
 }
 
 }  // namespace
+
+TEST_CASE("filter refuses parameters outside their domain with 2", "[tools][filter]") {
+  const Workspace space;
+  space.must("make-mesh plane -o m.obj -t m.png --size 16");
+  const std::string base = "filter m.obj -o o.png ";
+  const std::string positive = ": must be positive and finite\n";
+  check_refused(space, base + "--sigma-spatial 0", 2, "--sigma-spatial");
+  check_refused(space, base + "--sigma-spatial -1", 2, "--sigma-spatial");
+  check_refused(space, base + "--sigma-spatial nan", 2, "--sigma-spatial");
+  check_refused(space, base + "--sigma-range 0", 2, "onmesh filter: --sigma-range" + positive);
+  check_refused(space, base + "--sigma-range nan", 2, "--sigma-range");
+  check_refused(space, base + "--radius 0", 2, "--radius");
+  check_refused(space, base + "--gutter -1", 2, "--gutter");
+  check_refused(space, base + "--kind box", 2, "--kind");
+  check_refused(space, base + "--node-spacing 1e-9", 2, "--node-spacing: would make about");
+  check_refused(space, base + "--tolerance 0", 2, "onmesh filter: --tolerance" + positive);
+  check_refused(space, base + "--samples poisson --r-coef 0", 2, "filter: --r-coef" + positive);
+  check_refused(space, base + "--r-coef 1", 2, "filter: --r-coef: only with --samples poisson\n");
+  check_refused(space, base + "--samples poisson --r-coef 1 --spacing 1", 2,
+                "onmesh filter: --spacing and --r-coef exclude each other\n");
+  check_refused(space, base + "--bridge 0.1 --distance exact", 2,
+                "--bridge: exact distances know none, so not with --distance exact\n");
+  check_refused(space, base + "--overlap both", 2, "--overlap");
+  check_refused(space, base + "--sigma-spacial 1", 2, "did you mean --sigma-spatial?");
+  check_refused(space, "filter m.obj", 2, "--output");
+}
+
+TEST_CASE("filter speaks of flags where the library speaks of fields", "[tools][filter]") {
+  const Workspace space;
+  // Two squares on one half of the atlas, and beside the image's own tile.
+  space.file("m.obj",
+             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 3 0 0\nv 4 0 0\nv 4 1 0\nv 3 1 0\n"
+             "vt 1 0\nvt 2 0\nvt 2 0.5\nvt 1 0.5\n"
+             "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\nf 5/1 6/2 7/3\nf 5/1 7/3 8/4\n");
+  space.must("make-mesh plane -o unused.obj -t m.png --size 16");
+  const std::string base = "filter m.obj -t m.png -o o.png ";
+  const std::string claimed = "128 texels are claimed by several places";
+  check_refused(space, base + "--overlap error", 3, "filter: --overlap error: " + claimed);
+  const Run average = space.must(base + "--json");
+  CHECK_THAT(average.err, Contains(claimed) && Contains("(--overlap average)\n") &&
+                              Contains("or cut off with --wrap clamp\n"));
+  const auto warnings = average.json()["warnings"];
+  REQUIRE(warnings.size() == 2);
+  CHECK_THAT(warnings[0].get<std::string>(), Contains("--wrap clamp"));
+  CHECK_THAT(warnings[1].get<std::string>(), Contains("(--overlap average)"));
+  const auto plan = space.must(base + "--overlap first --dry-run --quiet --json").json();
+  CHECK_THAT(plan["warnings"][1].get<std::string>(), Contains("(--overlap first)"));
+}
+
+TEST_CASE("errors and findings name faces as in the file", "[tools]") {
+  const Workspace space;
+  // The first face has a vertex twice and is left out; the UVs of the third span too many tiles.
+  space.file("m.obj",
+             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 40000\n"
+             "f 1/1 2/2 2/2\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
+  space.must("make-mesh plane -o unused.obj -t m.png --size 16");
+  const std::string reason = "m.obj: face 2: its UVs span more than 16384 tiles\n";
+  check_refused(space, "filter m.obj -t m.png -o o.png", 3, reason);
+  check_refused(space, "map m.obj --resolution 8x8 -o m.exr", 3, reason);
+  check_refused(space, "compare m.png m.png --mesh m.obj", 3, reason);
+  check_refused(space, "sample m.obj --resolution 8x8 -o s.ply", 3, reason);
+  check_refused(space, "distance m.obj --vertex 0 --resolution 8x8 --texture d.exr", 3, reason);
+  CHECK(space.must("info m.obj --resolution 8x8 --json").json()["textures"][0]["error"] ==
+        "face 2: its UVs span more than 16384 tiles");
+}
 
 TEST_CASE("a constant texture stays as it is, bit for bit", "[tools][filter]") {
   const Workspace space;
@@ -60,8 +125,7 @@ TEST_CASE("filtering brings both sides of the seams together and keeps the rest 
   space.must("map m.obj -o map.exr --quiet");
   const Image map = read_image(space / "map.exr");
   const Image before = read_image(space / "m.png"), after = read_image(space / "o.png");
-  const auto& names = map.channel_names;
-  const auto coverage = std::find(names.begin(), names.end(), "coverage") - names.begin();
+  const int coverage = channel(map, "coverage");
   const int reach = 4;  // more than the gutter's two rings
   Index untouched = 0;
   for (int y = 0; y < map.height; ++y) {
@@ -161,50 +225,6 @@ TEST_CASE("an interrupted run leaves the target as it was and nothing else behin
   CHECK(content_of(space / "o.png") == "what was there before");
 }
 
-TEST_CASE("sample writes points of the surface that keep their distance", "[tools][sample]") {
-  const Workspace space;
-  space.must("make-mesh plane -o m.obj -t m.png --size 32");
-  space.must("sample m.obj -o s.ply --spacing 0.1 --seed 3");
-  auto columns = ply_columns(space / "s.ply");
-  for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "u", "v"}) {
-    INFO(name);
-    CHECK(columns.count(name) == 1);
-  }
-  const std::size_t count = columns["x"].size();
-  CHECK(count > 50);
-  double least = 1;
-  for (std::size_t i = 0; i < count; ++i) {
-    CHECK(columns["x"][i] == Approx(columns["u"][i]).margin(1e-6));
-    for (std::size_t j = 0; j < i; ++j)
-      least = std::min(
-          least, std::hypot(columns["x"][i] - columns["x"][j], columns["y"][i] - columns["y"][j]));
-  }
-  CHECK(least >= 0.1 * (1 - 1e-9));
-  const std::string first = content_of(space / "s.ply");
-  space.must("sample m.obj -o s.ply --spacing 0.1 --seed 3");
-  CHECK(content_of(space / "s.ply") == first);
-  space.must("sample m.obj -o s.ply --spacing 0.1 --seed 4");
-  CHECK(content_of(space / "s.ply") != first);
-}
-
-TEST_CASE("sample hits every texel of a uniform atlas and counts them", "[tools][sample]") {
-  const Workspace space;
-  space.must("make-mesh plane -o m.obj -t m.png --size 32");
-  const auto report = nlohmann::json::parse(space.must("sample m.obj -o s.ply --json").out);
-  CHECK(report["texels"]["covered"] == 32 * 32);
-  CHECK(report["texels"]["hit"] == 32 * 32);
-  CHECK(report["spacing"] <= report["largest_spacing"]);
-  CHECK(ply_columns(space / "s.ply")["spacing"].size() == report["samples"]);
-  const auto few =
-      nlohmann::json::parse(space.must("sample m.obj -t m.png -o s.ply --spacing 0.2 --json").out);
-  CHECK(few["texels"]["hit"] == few["samples"]);
-  CHECK(few["spacing"] == few["largest_spacing"]);
-  CHECK(ply_columns(space / "s.ply").count("spacing") == 0);
-  CHECK(
-      nlohmann::json::parse(space.must("sample m.obj -o s.ply --spacing 0.2 --json").out)["texels"]
-          .is_null());
-}
-
 TEST_CASE("a filter and its samples are measured by the commands that follow", "[tools][filter]") {
   const Workspace space;
   space.must("make-mesh noisy-cube -o m.obj -t m.png --size 96");
@@ -214,4 +234,42 @@ TEST_CASE("a filter and its samples are measured by the commands that follow", "
   INFO(close.out);
   CHECK(close.code == 0);
   CHECK(space.run("compare texel.png m.png --mesh m.obj --fail 40").code == 1);
+}
+
+TEST_CASE("a cube as loose triangles gives the bytes of the cube", "[tools][filter]") {
+  const Workspace space;
+  space.must("make-mesh noisy-cube --segments 3 -o m.obj -t m.png --size 128");
+  space.must("make-mesh noisy-cube --segments 3 --soup -o soup.obj");
+  const auto soup = space.must("info soup.obj --json").json();
+  CHECK(soup["vertices_in_file"] == 3 * soup["faces"].get<int>());
+  space.must("filter m.obj -o a.png --sigma-spatial 3tx --quiet");
+  space.must("filter soup.obj -t m.png -o b.png --sigma-spatial 3tx --quiet");
+  CHECK(content_of(space / "a.png") == content_of(space / "b.png"));
+}
+
+TEST_CASE("real meshes that are not manifold are filtered, or told why not", "[tools][filter]") {
+  const std::filesystem::path folder = shared_data();
+  if (!std::filesystem::exists(folder)) {
+    WARN("skipped: no ../shared/data");
+    return;
+  }
+  const Workspace space;
+  const Run flag =
+      space.run("filter '" + (folder / "kenney_flag/flag.obj").string() + "' -o o.png");
+  CHECK(flag.code == 3);
+  CHECK_THAT(flag.err, Contains("no face have any area") && Contains("nothing to filter"));
+  space.must("make-mesh plane -o m.obj -t small.png --size 128 --noise 0.2");
+  for (const char* file :
+       {"milk_truck/milk_truck.obj", "spider/spider.obj", "cup_scan/textured-0008192.obj"}) {
+    INFO(file);
+    const Run run = space.must("filter '" + (folder / file).string() +
+                               "' -t small.png --material all -o o.exr --json");
+    const Image image = read_image(space / "o.exr");
+    bool within = true;
+    for (const float v : image.pixels) within = within && v >= 0 && v <= 1;
+    CHECK(within);
+    const bool tie = std::string(file).rfind("milk", 0) == 0;
+    CHECK((run.err.find("2 vertices join parts that share no edge") != std::string::npos) == tie);
+    CHECK(run.json()["counts"]["texels"] > 1000);
+  }
 }
