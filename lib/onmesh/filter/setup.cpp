@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "onmesh/base/error.h"
-#include "onmesh/nodes/remoteness.h"
+#include "onmesh/nodes/sizing_field.h"
 #include "onmesh/poisson/spacing_field.h"
 
 namespace onmesh {
