@@ -11,6 +11,7 @@
 #include "command.h"
 #include "distance_compare.h"
 #include "inputs.h"
+#include "onmesh/distance/make_backend.h"
 #include "onmesh/filter/length.h"
 #include "onmesh/mesh_io/write_ply.h"
 #include "onmesh/nodes/bridge.h"

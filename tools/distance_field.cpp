@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "onmesh/distance/make_backend.h"
 #include "onmesh/measure/distance_error.h"
 #include "onmesh/mesh/closest_point.h"
+#include "onmesh/patches/grow_patch.h"
 #include "onmesh/samples/samples.h"
 
 namespace onmesh::tools {

@@ -16,6 +16,7 @@
 
 #include "onmesh/atlas/gutter.h"
 #include "onmesh/base/error.h"
+#include "onmesh/distance/make_backend.h"
 #include "onmesh/filter/patch_loop.h"
 #include "onmesh/filter/setup.h"
 #include "onmesh/nodes/bridge.h"
