@@ -4,23 +4,11 @@
 #include <random>
 
 #include "onmesh/base/error.h"
+#include "support/small_meshes.h"
 
 using namespace onmesh;
 using Catch::Matchers::Contains;
 using Face = std::array<Index, 3>;
-
-namespace {
-
-TriangleMesh make(std::vector<Vec3> positions, std::vector<Face> faces) {
-  TriangleMesh mesh;
-  mesh.positions = std::move(positions);
-  mesh.faces = std::move(faces);
-  mesh.face_uvs.assign(mesh.faces.size(), {kNone, kNone, kNone});
-  mesh.face_materials.assign(mesh.faces.size(), kNone);
-  return mesh;
-}
-
-}  // namespace
 
 TEST_CASE("the half-edge mesh has the triangle mesh's numbers, in whatever order faces come",
           "[half_edge_mesh]") {
@@ -40,7 +28,7 @@ TEST_CASE("the half-edge mesh has the triangle mesh's numbers, in whatever order
   std::mt19937 random(5);
   for (int round = 0; round < 5; ++round) {
     std::shuffle(faces.begin(), faces.end(), random);
-    const HalfEdgeMesh mesh = make_half_edge_mesh(make(positions, faces));
+    const HalfEdgeMesh mesh = make_half_edge_mesh(bare_mesh(positions, faces));
     REQUIRE(mesh.n_vertices() == positions.size());
     REQUIRE(mesh.n_faces() == faces.size());
     CHECK(mesh.n_edges() == 3 * n * n - 1);
@@ -71,17 +59,17 @@ TEST_CASE("what is not manifold is refused with number, place and remedy", "[hal
   };
   const std::vector<Vec3> p = {{0, 0, 0},  {1, 0, 0},   {0, 1, 0},
                                {0, -1, 0}, {0, 0, 2.5}, {0, 0, -1}};
-  CHECK(error_of(make(p, {{0, 1, 2}, {1, 0, 3}})) == "no error");
-  CHECK(error_of(make(p, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}})) ==
+  CHECK(error_of(bare_mesh(p, {{0, 1, 2}, {1, 0, 3}})) == "no error");
+  CHECK(error_of(bare_mesh(p, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}})) ==
         "the mesh is not manifold: 1 edge has three or more faces, between (0, 0, 0) and (1, 0, "
         "0); split or remove the "
         "extra faces");
   CHECK_THAT(
-      error_of(make(p, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {2, 1, 3}, {1, 2, 5}})),
+      error_of(bare_mesh(p, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {2, 1, 3}, {1, 2, 5}})),
       Contains("2 edges have three or more faces, the first one between (0, 0, 0) and (1, 0, 0)"));
-  CHECK_THAT(error_of(make(p, {{0, 1, 2}, {4, 3, 5}, {4, 1, 0}})),
+  CHECK_THAT(error_of(bare_mesh(p, {{0, 1, 2}, {4, 3, 5}, {4, 1, 0}})),
              Contains("1 vertex joins parts") && Contains("at (0, 0, 2.5)"));
-  CHECK_THAT(error_of(make(p, {{0, 1, 2}, {0, 1, 3}})),
+  CHECK_THAT(error_of(bare_mesh(p, {{0, 1, 2}, {0, 1, 3}})),
              Contains("not wound consistently") && Contains("between (0, 0, 0) and (1, 0, 0)"));
-  CHECK_THAT(error_of(make(p, {{0, 1, 1}})), Contains("face 0") && Contains("twice"));
+  CHECK_THAT(error_of(bare_mesh(p, {{0, 1, 1}})), Contains("face 0") && Contains("twice"));
 }
