@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "onmesh/nodes/half_edge_mesh.h"
 #include "onmesh/nodes/intrinsic_triangulation.h"
 #include "onmesh/nodes/refine.h"
 #include "onmesh/procedural/shapes.h"
@@ -35,12 +36,11 @@ double area_of(const TriangleMesh& mesh) {
 // Nodes as a multiple of the equilateral lattice of that spacing tell whether the size bound fits.
 void refine_shape(benchmark::State& state) {
   const TriangleMesh mesh = shape(state.range(0));
-  const HalfEdgeMesh half_edges = make_half_edge_mesh(mesh);
   const double area = area_of(mesh);
   RefineOptions options;
   options.spacing = std::sqrt(area / 0.866 / double(state.range(1)));
   RefineReport report;
-  for (auto _ : state) benchmark::DoNotOptimize(refine(mesh, half_edges, options, &report));
+  for (auto _ : state) benchmark::DoNotOptimize(refine_manifold(mesh, options, &report));
   state.SetLabel(kNames[state.range(0)]);
   state.counters["nodes"] = report.nodes;
   state.counters["nodes/lattice"] = double(report.nodes) / double(state.range(1));
@@ -59,7 +59,7 @@ void locate_texels(benchmark::State& state) {
   const TexelMap map = make_texel_map(mesh, size, size);
   RefineOptions options;
   options.spacing = 8 * map.median_texel_size();
-  const NodeSurface surface = refine(mesh, make_half_edge_mesh(mesh), options);
+  const NodeSurface surface = refine_manifold(mesh, options);
   for (auto _ : state) benchmark::DoNotOptimize(texel_samples(map, surface));
   state.SetLabel(kNames[state.range(0)]);
   state.counters["texels/s"] =
@@ -69,10 +69,10 @@ BENCHMARK(locate_texels)->ArgsProduct({{0, 1, 2}, {512, 2048}})->Unit(benchmark:
 
 void flip_to_delaunay(benchmark::State& state) {
   const TriangleMesh mesh = make_torus(int(state.range(0)), int(state.range(0) / 8), 1, 0.2);
-  const HalfEdgeMesh half_edges = make_half_edge_mesh(mesh);
+  const HalfEdges half_edges = make_half_edges(mesh);
   Index flips = 0;
   for (auto _ : state) {
-    IntrinsicTriangulation t(mesh, half_edges);
+    IntrinsicTriangulation t(half_edges, Index(mesh.positions.size()));
     flips = t.flip_to_delaunay();
   }
   state.counters["flips"] = flips;

@@ -8,6 +8,10 @@
 #include <vector>
 
 #include "onmesh/distance/backend.h"
+#include "onmesh/distance/exact.h"
+#include "onmesh/distance/make_backend.h"
+#include "onmesh/patches/grow_patch.h"
+#include "onmesh/patches/partition.h"
 #include "support/simple_shapes.h"
 
 namespace {

@@ -9,6 +9,7 @@
 #include "format.h"
 #include "interruption.h"
 #include "messages.h"
+#include "onmesh/distance/make_backend.h"
 #include "onmesh/image/image_io.h"
 #include "onmesh/measure/nearby_geodesics.h"
 #include "onmesh/mesh_io/write_ply.h"

@@ -6,8 +6,10 @@
 
 #include "format.h"
 #include "onmesh/base/plane.h"
+#include "onmesh/distance/make_backend.h"
 #include "onmesh/measure/nearby_geodesics.h"
 #include "onmesh/mesh/closest_point.h"
+#include "onmesh/patches/grow_patch.h"
 #include "onmesh/samples/samples.h"
 
 namespace onmesh::tools {

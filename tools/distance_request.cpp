@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "onmesh/image/image_io.h"
+
 namespace onmesh::tools {
 namespace {
 

@@ -5,9 +5,6 @@
 #include "info_output.h"
 #include "interruption.h"
 #include "messages.h"
-#include "onmesh/base/text.h"
-#include "onmesh/image/image_io.h"
-#include "onmesh/measure/seam_error.h"
 #include "subcommands.h"
 
 namespace onmesh::tools {

@@ -6,6 +6,7 @@
 
 #include "format.h"
 #include "interruption.h"
+#include "onmesh/image/image_io.h"
 
 namespace onmesh::tools {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "onmesh/measure/image_difference.h"
 #include "onmesh/measure/mesh_report.h"
+#include "onmesh/measure/seam_error.h"
 #include "shared_options.h"
 
 namespace onmesh::tools {

@@ -5,7 +5,7 @@
 
 #include "onmesh/base/error.h"
 #include "onmesh/base/process_memory.h"
-#include "onmesh/measure/image_difference.h"
+#include "onmesh/measure/seam_error.h"
 #include "onmesh/version.h"
 
 namespace onmesh::tools {

@@ -1,5 +1,7 @@
 #include "shared_options.h"
 
+#include "onmesh/image/image_io.h"
+
 #include <charconv>
 #include <utility>
 

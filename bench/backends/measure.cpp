@@ -7,6 +7,7 @@
 #include <string>
 
 #include "backends/observer.h"
+#include "onmesh/distance/make_backend.h"
 #include "onmesh/filter/patch_loop.h"
 
 namespace onmesh::bench {

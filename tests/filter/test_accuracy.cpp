@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "onmesh/distance/exact.h"
 #include "onmesh/procedural/shapes.h"
 #include "onmesh/procedural/texture.h"
 #include "support/closed_forms.h"

@@ -7,8 +7,10 @@
 
 #include "onmesh/atlas/gutter.h"
 #include "onmesh/base/error.h"
+#include "onmesh/distance/unfold.h"
 #include "onmesh/measure/mesh_report.h"
 #include "onmesh/nodes/bisection.h"
+#include "onmesh/patches/grow_patch.h"
 #include "onmesh/procedural/shapes.h"
 #include "support/brute_force.h"
 
@@ -256,7 +258,7 @@ TEST_CASE("on flat faces no path is shorter than the straight line, however thin
     mesh.face_materials.assign(mesh.faces.size(), kNone);
     RefineOptions options;
     options.spacing = 0.1;
-    const NodeSurface surface = refine_soup(mesh, options);
+    const NodeSurface surface = refine_by_bisection(mesh, options);
     const Patch patch = grow_patch(surface.nodes, {0}, 100);
     DistanceTable table;
     make_unfold()->fill(patch, 100, table);

@@ -1,3 +1,5 @@
+// Errors of distances, and exact distances up to a radius.
+#include "onmesh/distance/exact.h"
 #include "onmesh/measure/distance_error.h"
 
 #include <catch2/catch.hpp>

@@ -8,6 +8,9 @@
 
 #include "onmesh/base/error.h"
 #include "onmesh/procedural/shapes.h"
+#include "support/areas.h"
+#include "support/random_soup.h"
+#include "support/small_meshes.h"
 
 namespace onmesh {
 namespace {
@@ -15,17 +18,7 @@ namespace {
 NodeSurface refine_to(const TriangleMesh& mesh, double spacing, RefineReport* report = nullptr) {
   RefineOptions options;
   options.spacing = spacing;
-  return refine_soup(mesh, options, report);
-}
-
-TriangleMesh bare(const std::vector<Vec3>& positions,
-                  const std::vector<std::array<Index, 3>>& faces) {
-  TriangleMesh mesh;
-  mesh.positions = positions;
-  mesh.faces = faces;
-  mesh.face_uvs.assign(faces.size(), {kNone, kNone, kNone});
-  mesh.face_materials.assign(faces.size(), kNone);
-  return mesh;
+  return refine_by_bisection(mesh, options, report);
 }
 
 using Ends = std::pair<Index, Index>;
@@ -43,7 +36,7 @@ void check_refinement(const TriangleMesh& mesh, const NodeSurface& surface) {
   const NodeMesh& nodes = surface.nodes;
   const auto input_edges = count_faces(mesh.faces), node_edges = count_faces(nodes.faces);
   const auto node_position = [&](Index node) { return mesh.position(nodes.nodes[node]); };
-  double area = 0, worst_area = 0, worst_position = 0, worst_length = 0;
+  double worst_area = 0, worst_position = 0, worst_length = 0;
   int torn = 0;
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     double covered = 0;
@@ -73,20 +66,17 @@ void check_refinement(const TriangleMesh& mesh, const NodeSurface& surface) {
       }
     }
     worst_area = std::max(worst_area, std::abs(covered - 1));
-    area += mesh.face_area(f);
   }
   CHECK(torn == 0);
   CHECK(worst_area < 1e-12);
   const double scale = mesh.diagonal();
   CHECK(worst_position < 1e-14 * scale);
   CHECK(worst_length < 1e-14 * scale);
-  double node_area = 0;
-  for (Index f = 0; f < nodes.faces.size(); ++f) node_area += nodes.face_area(f);
-  CHECK(node_area == Approx(area).epsilon(1e-9));
+  CHECK(area_of(nodes) == Approx(area_of(mesh)).epsilon(1e-9));
   CHECK(surface.overlay.pieces.size() == nodes.faces.size());
 }
 
-TEST_CASE("bisection conforms over any edge, and its pieces cover every face", "[refine_soup]") {
+TEST_CASE("bisection conforms over any edge, and its pieces cover every face", "[bisection]") {
   for (const double spacing : {0.3, 0.07}) {
     for (const TriangleMesh& mesh : {make_cube(1), make_book(1), make_book(3), make_moebius(1),
                                      make_bow_tie(1), make_blob(1, 3), make_chest(1)}) {
@@ -102,24 +92,15 @@ TEST_CASE("bisection conforms over any edge, and its pieces cover every face", "
   }
 }
 
-TEST_CASE("random soups are refined: thin faces, many faces on an edge", "[refine_soup]") {
+TEST_CASE("random soups are refined: thin faces, many faces on an edge", "[bisection]") {
   std::mt19937 random(5);
-  const auto uniform = [&] { return double(random()) / 4294967296.0; };
   for (int round = 0; round < 8; ++round) {
-    std::vector<Vec3> positions;
-    for (int i = 0; i < 12; ++i) positions.emplace_back(uniform(), uniform(), 0.2 * uniform());
-    std::vector<std::array<Index, 3>> faces;
-    while (faces.size() < 40) {
-      std::array<Index, 3> f{Index(random() % 12), Index(random() % 12), Index(random() % 12)};
-      std::sort(f.begin(), f.end());
-      if (f[0] == f[1] || f[1] == f[2]) continue;
-      if (std::find(faces.begin(), faces.end(), f) == faces.end()) faces.push_back(f);
-    }
-    check_refinement(bare(positions, faces), refine_to(bare(positions, faces), 0.2));
+    const TriangleMesh mesh = random_soup(40, 0.2, random);
+    check_refinement(mesh, refine_to(mesh, 0.2));
   }
 }
 
-TEST_CASE("points of a face are found in the piece that holds them", "[refine_soup]") {
+TEST_CASE("points of a face are found in the piece that holds them", "[bisection]") {
   const TriangleMesh mesh = make_book(2);
   const NodeSurface surface = refine_to(mesh, 0.1);
   std::mt19937 random(1);
@@ -138,11 +119,11 @@ TEST_CASE("points of a face are found in the piece that holds them", "[refine_so
   CHECK(worst < 1e-13);
 }
 
-TEST_CASE("slivers of 1:1000 and flat faces come to an end", "[refine_soup]") {
+TEST_CASE("slivers of 1:1000 and flat faces come to an end", "[bisection]") {
   for (const double height : {1e-3, 1e-6, 0.0}) {
     const TriangleMesh mesh =
-        bare({{0, 0, 0}, {1, 0, 0}, {0.3, height, 0}, {0.5, -0.4, 0}, {0.5, 0, 0.4}},
-             {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 2, 4}});
+        bare_mesh({{0, 0, 0}, {1, 0, 0}, {0.3, height, 0}, {0.5, -0.4, 0}, {0.5, 0, 0.4}},
+                  {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 2, 4}});
     RefineReport report;
     const NodeSurface surface = refine_to(mesh, 0.05, &report);
     check_refinement(mesh, surface);
@@ -151,7 +132,7 @@ TEST_CASE("slivers of 1:1000 and flat faces come to an end", "[refine_soup]") {
   }
 }
 
-TEST_CASE("bisection makes about as many nodes as an equilateral lattice", "[refine_soup]") {
+TEST_CASE("bisection makes about as many nodes as an equilateral lattice", "[bisection]") {
   for (const double spacing : {0.08, 0.04, 0.02}) {
     const auto nodes = double(refine_to(make_plane(1, 1), spacing).nodes.nodes.size());
     const double lattice = 2 / (std::sqrt(3.0) * spacing * spacing);
@@ -174,7 +155,7 @@ double mean_edge_near(const TriangleMesh& mesh, const NodeSurface& surface, cons
   return sum / count;
 }
 
-TEST_CASE("nodes are dense at cones and bow ties, not along a straight spine", "[refine_soup]") {
+TEST_CASE("nodes are dense at cones and bow ties, not along a straight spine", "[bisection]") {
   const TriangleMesh cone = make_cone(200, 12, 1), tie = make_bow_tie(4), book = make_book(4);
   const NodeSurface on_cone = refine_to(cone, 0.1), on_tie = refine_to(tie, 0.1),
                     on_book = refine_to(book, 0.1), page = refine_to(make_plane(4, 4, 1, 1.4), 0.1);
@@ -185,67 +166,13 @@ TEST_CASE("nodes are dense at cones and bow ties, not along a straight spine", "
   CHECK(on_book.nodes.faces.size() == 3 * page.nodes.faces.size());
 }
 
-TEST_CASE("bisection honours max_nodes and refuses senseless spacings", "[refine_soup]") {
+TEST_CASE("bisection honours max_nodes and refuses senseless spacings", "[bisection]") {
   CHECK_THROWS_AS(refine_to(make_book(1), 0), UsageError);
   CHECK_THROWS_AS(refine_to(make_book(1), std::nan("")), UsageError);
   RefineOptions options;
   options.spacing = 1e-3;
   options.max_nodes = 1000;
-  CHECK_THROWS_AS(refine_soup(make_book(1), options), InputError);
-}
-
-TEST_CASE("only meshes whose faces must stay flat are bisected", "[refine_soup]") {
-  RefineOptions options;
-  options.spacing = 0.3;
-  for (const TriangleMesh& mesh : {make_cube(), make_book(2), make_bow_tie(1), make_moebius(2)}) {
-    CleanReport cleaning;
-    const TriangleMesh cleaned = clean(mesh, &cleaning);
-    RefineReport report;
-    refine(cleaned, cleaning, options, &report);
-    CHECK_FALSE(report.bisected);
-    options.flat_faces = true;
-    refine(cleaned, cleaning, options, &report);
-    CHECK(report.bisected);
-    options.flat_faces = false;
-    CHECK(cleaning.manifold() == (mesh.faces.size() == 12));
-    CHECK(cleaning.defects().empty() == cleaning.manifold());
-  }
-}
-
-TEST_CASE("a bow tie is one node that both halves keep, and nodes are dense there",
-          "[refine_soup]") {
-  const TriangleMesh tie = make_bow_tie(4);
-  CleanReport cleaning;
-  const TriangleMesh cleaned = clean(tie, &cleaning);
-  REQUIRE(cleaning.bow_ties == 1);
-  RefineOptions options;
-  options.spacing = 0.2;
-  RefineReport report;
-  const NodeSurface surface = refine(cleaned, cleaning, options, &report);
-  CHECK_FALSE(report.bisected);
-  CHECK(report.nodes == surface.nodes.nodes.size());
-  double area = 0;
-  for (Index f = 0; f < surface.nodes.faces.size(); ++f) {
-    area += surface.nodes.face_area(f);
-    for (const Index n : surface.nodes.faces[f]) REQUIRE(n < surface.nodes.nodes.size());
-  }
-  double expected = 0;
-  for (Index f = 0; f < cleaned.faces.size(); ++f) expected += cleaned.face_area(f);
-  CHECK(area == Approx(expected));
-  // Every node lies where its face says, and all are joined.
-  std::vector<Index> reached{0};
-  std::vector<bool> seen(surface.nodes.nodes.size(), false);
-  seen[0] = true;
-  for (std::size_t i = 0; i < reached.size(); ++i) {
-    for (Index k = surface.nodes.node_offsets[reached[i]];
-         k < surface.nodes.node_offsets[reached[i] + 1]; ++k) {
-      for (const Index n : surface.nodes.faces[surface.nodes.node_faces[k]]) {
-        if (!seen[n]) reached.push_back(n);
-        seen[n] = true;
-      }
-    }
-  }
-  CHECK(reached.size() == surface.nodes.nodes.size());
+  CHECK_THROWS_AS(refine_by_bisection(make_book(1), options), InputError);
 }
 
 }  // namespace

@@ -6,8 +6,10 @@
 #include <random>
 
 #include "onmesh/base/error.h"
-#include "onmesh/distance/backend.h"
+#include "onmesh/distance/make_backend.h"
+#include "onmesh/distance/unfold.h"
 #include "onmesh/nodes/bisection.h"
+#include "onmesh/patches/grow_patch.h"
 #include "onmesh/procedural/shapes.h"
 #include "support/brute_force.h"
 
@@ -36,7 +38,7 @@ TriangleMesh two_squares(double gap, int n = 1) {
 NodeSurface refined(const TriangleMesh& mesh, double spacing) {
   RefineOptions options;
   options.spacing = spacing;
-  return refine_soup(mesh, options);
+  return refine_by_bisection(mesh, options);
 }
 
 /// Distances from one node to all; infinite where unreachable.

@@ -1,17 +1,20 @@
+#include "onmesh/nodes/intrinsic_triangulation.h"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
 
-#include "onmesh/nodes/intrinsic_triangulation.h"
+#include "onmesh/nodes/half_edge_mesh.h"
 #include "onmesh/procedural/shapes.h"
+#include "support/small_meshes.h"
 
 using namespace onmesh;
 
 namespace {
 
 IntrinsicTriangulation triangulate(const TriangleMesh& mesh) {
-  return {mesh, make_half_edge_mesh(mesh)};
+  return {make_half_edges(mesh), Index(mesh.positions.size())};
 }
 
 // Over the two faces beside h.
@@ -61,12 +64,7 @@ void check_consistent(const IntrinsicTriangulation& t) {
 
 // Two copies of one triangle glued along all three sides.
 TriangleMesh pillow(const Vec3& apex) {
-  TriangleMesh mesh;
-  mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), apex};
-  mesh.faces = {{0, 1, 2}, {0, 2, 1}};
-  mesh.face_uvs.assign(2, {kNone, kNone, kNone});
-  mesh.face_materials.assign(2, kNone);
-  return mesh;
+  return bare_mesh({{0, 0, 0}, {1, 0, 0}, apex}, {{0, 1, 2}, {0, 2, 1}});
 }
 
 Index count_self_edges(const HalfEdges& e) {
@@ -204,27 +202,17 @@ TEST_CASE("inserted and split nodes lie where they were put", "[intrinsic]") {
   CHECK(area_of(t.edges()) == Approx(1).epsilon(1e-13));
 }
 
-TEST_CASE("a straight walk over folds ends where the unfolded one does", "[intrinsic]") {
-  const TriangleMesh folded = make_folded_sheet(7, 2, 1, 75);
-  const TriangleMesh flat = make_plane(7, 1, 2, 1);
-  const IntrinsicTriangulation t = triangulate(folded);
-  for (const double angle : {0.05, 0.2, 0.4}) {
-    const auto walk = t.trace(0, angle, 1.9);
-    const Vec3 there = flat.position(walk.point);  // same faces, same barycentric coordinates
-    const Vec3 start = flat.positions[0];
-    CHECK((there - start).norm() == Approx(1.9).epsilon(1e-12));
-  }
-}
-
 TEST_CASE("slivers of aspect 1:1000 stay accurate", "[intrinsic]") {
   // A square cut into fans of needles and caps, flipped, against the plane it is.
-  TriangleMesh mesh = make_plane(1, 1);
-  mesh.positions = {Vec3(0, 0, 0),      Vec3(1, 0, 0),      Vec3(1, 1, 0),           Vec3(0, 1, 0),
-                    Vec3(0.5, 1e-3, 0), Vec3(0.5, 2e-3, 0), Vec3(0.5 + 1e-3, 0.5, 0)};
-  mesh.faces = {{0, 1, 4}, {0, 4, 5}, {4, 1, 5}, {5, 1, 6},
-                {0, 5, 6}, {1, 2, 6}, {2, 3, 6}, {3, 0, 6}};
-  mesh.face_uvs.assign(8, {kNone, kNone, kNone});
-  mesh.face_materials.assign(8, kNone);
+  const TriangleMesh mesh = bare_mesh(
+      {{0, 0, 0},
+       {1, 0, 0},
+       {1, 1, 0},
+       {0, 1, 0},
+       {0.5, 1e-3, 0},
+       {0.5, 2e-3, 0},
+       {0.5 + 1e-3, 0.5, 0}},
+      {{0, 1, 4}, {0, 4, 5}, {4, 1, 5}, {5, 1, 6}, {0, 5, 6}, {1, 2, 6}, {2, 3, 6}, {3, 0, 6}});
   IntrinsicTriangulation t = triangulate(mesh);
   t.flip_to_delaunay();
   check_consistent(t);

@@ -7,19 +7,12 @@
 
 #include "onmesh/mesh/edge_table.h"
 #include "onmesh/procedural/shapes.h"
+#include "support/areas.h"
+#include "support/random_soup.h"
+#include "support/small_meshes.h"
 
 namespace onmesh {
 namespace {
-
-TriangleMesh bare(const std::vector<Vec3>& positions,
-                  const std::vector<std::array<Index, 3>>& faces) {
-  TriangleMesh mesh;
-  mesh.positions = positions;
-  mesh.faces = faces;
-  mesh.face_uvs.assign(faces.size(), {kNone, kNone, kNone});
-  mesh.face_materials.assign(faces.size(), kNone);
-  return mesh;
-}
 
 /// A cube with a square fin that stands on one of its edges: a slit in a closed surface.
 TriangleMesh cube_with_fin() {
@@ -32,7 +25,7 @@ TriangleMesh cube_with_fin() {
   mesh.positions.push_back(mesh.positions[b] + out);
   mesh.faces.push_back({a, b, c + 1});
   mesh.faces.push_back({a, c + 1, c});
-  return bare(mesh.positions, mesh.faces);
+  return bare_mesh(mesh.positions, mesh.faces);
 }
 
 /// Nodes lie where the overlay puts them, pieces cover every face, sides agree in their lengths.
@@ -40,14 +33,11 @@ void check_refinement(const TriangleMesh& mesh, double spacing) {
   RefineOptions options;
   options.spacing = spacing;
   RefineReport report;
-  const NodeSurface surface = refine_pieces(mesh, options, &report);
+  const NodeSurface surface = refine_in_pieces(mesh, options, &report);
   const NodeMesh& nodes = surface.nodes;
   REQUIRE(report.nodes == nodes.nodes.size());
   CHECK_FALSE(report.bisected);
-  double area = 0, node_area = 0;
-  for (Index f = 0; f < mesh.faces.size(); ++f) area += mesh.face_area(f);
-  for (Index f = 0; f < nodes.faces.size(); ++f) node_area += nodes.face_area(f);
-  CHECK(node_area == Approx(area).epsilon(1e-9));
+  CHECK(area_of(nodes) == Approx(area_of(mesh)).epsilon(1e-9));
   for (Index v = 0; v < mesh.positions.size(); ++v) {
     CHECK((mesh.position(nodes.nodes[v]) - mesh.positions[v]).norm() < 1e-12);
   }
@@ -98,7 +88,7 @@ std::map<std::pair<Index, Index>, int> branching(const NodeMesh& nodes) {
   return count;
 }
 
-TEST_CASE("pieces keep area, vertices and places, whatever joins them", "[refine_pieces]") {
+TEST_CASE("pieces keep area, vertices and places, whatever joins them", "[manifold_pieces]") {
   for (const double spacing : {0.3, 0.1}) {
     for (const TriangleMesh& mesh : {make_book(1), make_book(3), make_moebius(1), make_moebius(4),
                                      make_bow_tie(2), make_cube(1), cube_with_fin()}) {
@@ -107,51 +97,37 @@ TEST_CASE("pieces keep area, vertices and places, whatever joins them", "[refine
   }
 }
 
-TEST_CASE("along an edge of three faces all have the same nodes", "[refine_pieces]") {
+TEST_CASE("along an edge of three faces all have the same nodes", "[manifold_pieces]") {
   for (const TriangleMesh& mesh : {make_book(1), cube_with_fin()}) {
     RefineOptions options;
     options.spacing = 0.1;
-    const NodeSurface surface = refine_pieces(mesh, options);
+    const NodeSurface surface = refine_in_pieces(mesh, options);
     const EdgeTable edges(mesh);
-    double length = 0, seam = 0;
+    double length = 0, branching_length = 0;
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const auto [a, b] = edges.vertices(e);
       if (edges.sides(e).size() == 3) length += (mesh.positions[a] - mesh.positions[b]).norm();
     }
     for (const auto& [ends, faces] : branching(surface.nodes)) {
       CHECK(faces == 3);
-      seam += (mesh.position(surface.nodes.nodes[ends.first]) -
-               mesh.position(surface.nodes.nodes[ends.second]))
-                  .norm();
+      branching_length += (mesh.position(surface.nodes.nodes[ends.first]) -
+                           mesh.position(surface.nodes.nodes[ends.second]))
+                              .norm();
     }
     CHECK(length > 0);
-    CHECK(seam == Approx(length).epsilon(1e-9));
+    CHECK(branching_length == Approx(length).epsilon(1e-9));
   }
 }
 
-TEST_CASE("random soups are refined in pieces", "[refine_pieces]") {
+TEST_CASE("random soups are refined in pieces", "[manifold_pieces]") {
   std::mt19937 random(5);
-  const auto uniform = [&] { return double(random()) / 4294967296.0; };
   for (int round = 0; round < 4; ++round) {
-    std::vector<Vec3> positions;
-    for (int i = 0; i < 12; ++i) positions.emplace_back(uniform(), uniform(), 0.5 * uniform());
-    std::vector<std::array<Index, 3>> faces;
-    while (faces.size() < 30) {
-      std::array<Index, 3> f{Index(random() % 12), Index(random() % 12), Index(random() % 12)};
-      std::sort(f.begin(), f.end());
-      if (f[0] == f[1] || f[1] == f[2]) continue;
-      if (std::find(faces.begin(), faces.end(), f) == faces.end()) faces.push_back(f);
-    }
-    TriangleMesh mesh = bare(positions, faces);
+    const TriangleMesh mesh = random_soup(30, 0.5, random);
     RefineOptions options;
     options.spacing = 0.1;
-    const NodeSurface surface = refine_pieces(mesh, options);
-    double area = 0, node_area = 0;
-    for (Index f = 0; f < mesh.faces.size(); ++f) area += mesh.face_area(f);
-    for (Index f = 0; f < surface.nodes.faces.size(); ++f) {
-      node_area += surface.nodes.face_area(f);
-    }
-    CHECK(node_area == Approx(area).epsilon(1e-9));
+    const NodeSurface surface = refine_in_pieces(mesh, options);
+    const double area = area_of(mesh);
+    CHECK(area_of(surface.nodes) == Approx(area).epsilon(1e-9));
     CHECK(double(surface.nodes.nodes.size()) < 20 * area / (0.866 * 0.1 * 0.1));
   }
 }

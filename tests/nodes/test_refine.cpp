@@ -1,10 +1,13 @@
+#include "onmesh/nodes/refine.h"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "onmesh/base/error.h"
-#include "onmesh/nodes/refine.h"
 #include "onmesh/procedural/shapes.h"
+#include "support/areas.h"
+#include "support/small_meshes.h"
 
 using namespace onmesh;
 
@@ -13,19 +16,7 @@ namespace {
 NodeSurface refine_to(const TriangleMesh& mesh, double spacing, RefineReport* report = nullptr) {
   RefineOptions options;
   options.spacing = spacing;
-  return refine(mesh, make_half_edge_mesh(mesh), options, report);
-}
-
-double area_of(const NodeMesh& nodes) {
-  double sum = 0;
-  for (Index f = 0; f < nodes.faces.size(); ++f) sum += nodes.face_area(f);
-  return sum;
-}
-
-double area_of(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (Index f = 0; f < mesh.faces.size(); ++f) sum += mesh.face_area(f);
-  return sum;
+  return refine_manifold(mesh, options, report);
 }
 
 }  // namespace
@@ -111,12 +102,9 @@ TEST_CASE("halving the spacing quadruples the nodes of a flat sheet", "[refine]"
 
 TEST_CASE("needles, caps and pillows are refined without end", "[refine]") {
   for (const double height : {0.3, 1e-3, 1e-5}) {
-    TriangleMesh tetrahedron;
-    tetrahedron.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, height, 0),
-                             Vec3(0.5, height / 3, height)};
-    tetrahedron.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-    tetrahedron.face_uvs.assign(4, {kNone, kNone, kNone});
-    tetrahedron.face_materials.assign(4, kNone);
+    const TriangleMesh tetrahedron =
+        bare_mesh({{0, 0, 0}, {1, 0, 0}, {0.5, height, 0}, {0.5, height / 3, height}},
+                  {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
     const NodeSurface surface = refine_to(tetrahedron, 0.1);
     CHECK(area_of(surface.nodes) == Approx(area_of(tetrahedron)).epsilon(1e-5));
     CHECK(surface.nodes.nodes.size() < 100000);
@@ -124,12 +112,9 @@ TEST_CASE("needles, caps and pillows are refined without end", "[refine]") {
 }
 
 TEST_CASE("a face without area does not stop the refinement", "[refine]") {
-  TriangleMesh mesh = make_plane(1, 1);
   // Vertex 4 on the diagonal, seen as a corner by one side only: a flat face closes the gap.
-  mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0), Vec3(0.5, 0.5, 0)};
-  mesh.faces = {{0, 1, 2}, {0, 4, 3}, {4, 2, 3}, {0, 2, 4}};
-  mesh.face_uvs.assign(4, {kNone, kNone, kNone});
-  mesh.face_materials.assign(4, kNone);
+  const TriangleMesh mesh = bare_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
+                                      {{0, 1, 2}, {0, 4, 3}, {4, 2, 3}, {0, 2, 4}});
   const NodeSurface surface = refine_to(mesh, 0.2);
   CHECK(area_of(surface.nodes) == Approx(1).epsilon(1e-5));
   for (const auto& l : surface.nodes.lengths) CHECK(l[0] + l[1] + l[2] < 1e3);
@@ -142,7 +127,7 @@ TEST_CASE("spacings that make no sense are refused", "[refine]") {
   options.spacing = 1e-3;
   options.max_nodes = 1000;
   const TriangleMesh mesh = make_plane(1, 1);
-  CHECK_THROWS_AS(refine(mesh, make_half_edge_mesh(mesh), options), InputError);
+  CHECK_THROWS_AS(refine_manifold(mesh, options), InputError);
 }
 
 TEST_CASE("nodes are few where none are needed, and as dense as ever within reach", "[refine]") {
@@ -182,7 +167,7 @@ TEST_CASE("nodes are few where none are needed, and as dense as ever within reac
       corner = mesh.positions[mesh.faces[0][0]];
     }
     options.needed[0] = true;
-    const NodeSurface surface = refine(mesh, make_half_edge_mesh(mesh), options);
+    const NodeSurface surface = refine_manifold(mesh, options);
     CHECK(area_of(surface.nodes) == Approx(area_of(mesh)).epsilon(1e-11));
     const double everywhere = 100 * 2 / (std::sqrt(3.0) * 0.05 * 0.05);
     CHECK(double(surface.nodes.nodes.size()) < 0.05 * everywhere);
@@ -195,4 +180,53 @@ TEST_CASE("nodes are few where none are needed, and as dense as ever within reac
     CHECK(longest > 0);
     CHECK(longest <= 1.4 * options.spacing * (1 + 1e-6));
   }
+}
+
+TEST_CASE("only meshes whose faces must stay flat are bisected", "[refine]") {
+  RefineOptions options;
+  options.spacing = 0.3;
+  for (const TriangleMesh& mesh : {make_cube(), make_book(2), make_bow_tie(1), make_moebius(2)}) {
+    CleanReport cleaning;
+    const TriangleMesh cleaned = clean(mesh, &cleaning);
+    RefineReport report;
+    refine(cleaned, cleaning, options, &report);
+    CHECK_FALSE(report.bisected);
+    options.flat_faces = true;
+    refine(cleaned, cleaning, options, &report);
+    CHECK(report.bisected);
+    options.flat_faces = false;
+    CHECK(cleaning.manifold() == (mesh.faces.size() == 12));
+    CHECK(cleaning.defects().empty() == cleaning.manifold());
+  }
+}
+
+TEST_CASE("a bow tie is one node that both halves keep, and nodes are dense there", "[refine]") {
+  const TriangleMesh tie = make_bow_tie(4);
+  CleanReport cleaning;
+  const TriangleMesh cleaned = clean(tie, &cleaning);
+  REQUIRE(cleaning.bow_ties == 1);
+  RefineOptions options;
+  options.spacing = 0.2;
+  RefineReport report;
+  const NodeSurface surface = refine(cleaned, cleaning, options, &report);
+  CHECK_FALSE(report.bisected);
+  CHECK(report.nodes == surface.nodes.nodes.size());
+  for (const auto& face : surface.nodes.faces) {
+    for (const Index n : face) REQUIRE(n < surface.nodes.nodes.size());
+  }
+  CHECK(area_of(surface.nodes) == Approx(area_of(cleaned)).epsilon(1e-9));
+  // All nodes are joined.
+  std::vector<Index> reached{0};
+  std::vector<bool> seen(surface.nodes.nodes.size(), false);
+  seen[0] = true;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    for (Index k = surface.nodes.node_offsets[reached[i]];
+         k < surface.nodes.node_offsets[reached[i] + 1]; ++k) {
+      for (const Index n : surface.nodes.faces[surface.nodes.node_faces[k]]) {
+        if (!seen[n]) reached.push_back(n);
+        seen[n] = true;
+      }
+    }
+  }
+  CHECK(reached.size() == surface.nodes.nodes.size());
 }

@@ -15,7 +15,7 @@ namespace {
 NodeSurface refine_to(const TriangleMesh& mesh, double spacing) {
   RefineOptions options;
   options.spacing = spacing;
-  return refine(mesh, make_half_edge_mesh(mesh), options);
+  return refine_manifold(mesh, options);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Exact polyhedral distances by CGAL. The only file of this stage that sees CGAL.
+#include "onmesh/distance/exact.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_shortest_path.h>
@@ -9,7 +10,7 @@
 #include <optional>
 
 #include "onmesh/base/error.h"
-#include "onmesh/distance/backend.h"
+#include "onmesh/patches/grow_patch.h"
 
 namespace onmesh {
 namespace {

@@ -12,6 +12,7 @@
 
 #include "onmesh/atlas/gutter.h"
 #include "onmesh/base/face_error.h"
+#include "onmesh/distance/make_backend.h"
 #include "onmesh/filter/draw_samples.h"
 #include "onmesh/filter/node_spacing.h"
 #include "onmesh/filter/patch_loop.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "onmesh/nodes/remoteness.h"
+#include "onmesh/nodes/sizing_field.h"
 
 namespace onmesh {
 namespace {

@@ -1,4 +1,7 @@
 #include "onmesh/filter/patch_loop.h"
+#include "onmesh/patches/edge_extents.h"
+#include "onmesh/patches/grow_patch.h"
+#include "onmesh/patches/partition.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>

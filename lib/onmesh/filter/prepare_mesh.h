@@ -7,6 +7,7 @@
 #include "onmesh/atlas/texel_map.h"
 #include "onmesh/filter/options.h"
 #include "onmesh/image/image.h"
+#include "onmesh/mesh/clean.h"
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {

@@ -6,7 +6,6 @@
 #include "onmesh/filter/prepare_mesh.h"
 #include "onmesh/filter/report.h"
 #include "onmesh/filter/working_plan.h"
-#include "onmesh/mesh/clean.h"
 
 namespace onmesh {
 

@@ -1,4 +1,6 @@
 #include "onmesh/measure/distance_error.h"
+#include "onmesh/distance/exact.h"
+#include "onmesh/patches/grow_patch.h"
 
 #include <algorithm>
 #include <cmath>

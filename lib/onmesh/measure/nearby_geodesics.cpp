@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "onmesh/distance/exact.h"
+#include "onmesh/patches/grow_patch.h"
+
 namespace onmesh {
 
 NearbyGeodesics::NearbyGeodesics(const TriangleMesh& mesh, double radius)

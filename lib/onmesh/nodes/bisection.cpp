@@ -5,7 +5,6 @@
 #include <string>
 
 #include "onmesh/base/error.h"
-#include "onmesh/nodes/remoteness.h"
 #include "onmesh/nodes/sizing_field.h"
 
 namespace onmesh {
@@ -241,8 +240,8 @@ class Bisection {
 
 }  // namespace
 
-NodeSurface refine_soup(const TriangleMesh& mesh, const RefineOptions& options,
-                        RefineReport* report) {
+NodeSurface refine_by_bisection(const TriangleMesh& mesh, const RefineOptions& options,
+                                RefineReport* report) {
   check_spacing(options);
   Bisection bisection(mesh, options);
   bisection.run();

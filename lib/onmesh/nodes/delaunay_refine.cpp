@@ -6,6 +6,7 @@
 #include <string>
 
 #include "onmesh/base/error.h"
+#include "onmesh/nodes/bad_faces.h"
 
 namespace onmesh {
 namespace {
@@ -29,49 +30,16 @@ constexpr double kSame = 1e-9;
 // A circumcentre whose barycentric coordinate is below this goes onto the edge.
 constexpr double kOnEdge = 1e-3;
 
-/// Bad faces by what is to be done first. Within a class the one that came last goes first: so the
-/// refinement works its way from place to place, in memory that is still in the cache, and new
-/// nodes are neighbours of the ones before.
-class BadFaces {
- public:
-  static constexpr int kNotBad = -1;
-  static constexpr int kFront = 0;
-  static constexpr int kClasses = 64;
-  static constexpr int kThin = kClasses - 1;
-  /// The class of a large face that is not at the front: the smallest come first, so that one place
-  /// is refined until a front starts from there.
-  /// \param size circumradius as a share of the largest one allowed, > 1
-  static int large(double size) { return std::min(1 + std::ilogb(size * size), kThin - 1); }
-
-  void push(Index face, int face_class) {
-    classes_[std::size_t(face_class)].push_back(face);
-    first_ = std::min(first_, face_class);
-  }
-  /// \return false if there are none left
-  bool pop(Index& face, int& face_class) {
-    while (first_ < kClasses && classes_[std::size_t(first_)].empty()) ++first_;
-    if (first_ == kClasses) return false;
-    face_class = first_;
-    face = classes_[std::size_t(first_)].back();
-    classes_[std::size_t(first_)].pop_back();
-    return true;
-  }
-
- private:
-  std::array<std::vector<Index>, kClasses> classes_;
-  int first_ = kClasses;
-};
-
 class Refiner {
  public:
   Refiner(IntrinsicTriangulation& triangulation, std::vector<double> vertex_spacing,
-          const Remoteness& remoteness, const RefineOptions& options, CutEdges& seams)
+          const Remoteness& remoteness, const RefineOptions& options, CutEdges& cuts)
       : t_(triangulation),
         remoteness_(remoteness),
         options_(options),
         sine_(std::sin(options.min_angle_degrees * std::numbers::pi / 180)),
         near_(std::move(vertex_spacing)),
-        seams_(seams) {
+        cuts_(cuts) {
     wanted_.reserve(near_.size());
     for (Index v = 0; v < near_.size(); ++v)
       wanted_.push_back(near_[v] + remoteness_(t_.location(v)));
@@ -91,17 +59,11 @@ class Refiner {
       improve(face);
       report.flips += flips_;
     }
-    report.insertions = t_.node_count() - t_.input_vertex_count();
+    report.insertions = t_.node_count() - t_.input().vertex_count();
     report.smallest_angle_degrees = smallest_angle() * 180 / std::numbers::pi;
   }
 
  private:
-  double circumradius(Index f) const {
-    const HalfEdges& e = t_.edges();
-    const double a = e.length[3 * f], b = e.length[3 * f + 1], c = e.length[3 * f + 2];
-    return a * b * c / std::max(4 * e.area(f), 1e-300);
-  }
-
   // A small angle that no refinement can remove: the node at it has no room for a larger one, or
   // its opposite side is a boundary edge that must not become shorter.
   bool forced(Index f) const {
@@ -114,7 +76,7 @@ class Refiner {
   }
 
   bool is_needle(Index node) const {
-    return node < t_.input_vertex_count() && t_.total_angle(node) < std::numbers::pi / 3 + 1e-9;
+    return node < t_.input().vertex_count() && t_.total_angle(node) < std::numbers::pi / 3 + 1e-9;
   }
 
   // Nothing is asked of the shape of faces where no nodes are needed.
@@ -130,11 +92,8 @@ class Refiner {
     return kCircumradiusPerSpacing / 3 *
            (wanted_[e.tail[3 * f]] + wanted_[e.tail[3 * f + 1]] + wanted_[e.tail[3 * f + 2]]);
   }
-  bool too_large(Index f) const { return circumradius(f) > (1 + kSame) * largest_radius(f); }
-
-  double shortest_edge(Index f) const {
-    const HalfEdges& e = t_.edges();
-    return std::min({e.length[3 * f], e.length[3 * f + 1], e.length[3 * f + 2]});
+  bool too_large(Index f) const {
+    return t_.edges().circumradius(f) > (1 + kSame) * largest_radius(f);
   }
 
   static bool at_front(double shortest_edge, double largest_radius) {
@@ -145,8 +104,8 @@ class Refiner {
 
   // The class of a face that is too large or too thin.
   int class_of(Index f) const {
-    const double radius = circumradius(f), largest = largest_radius(f);
-    const double shortest = shortest_edge(f);
+    const double radius = t_.edges().circumradius(f), largest = largest_radius(f);
+    const double shortest = t_.edges().shortest_edge(f);
     if (radius > (1 + kSame) * largest) {
       return at_front(shortest, largest) ? BadFaces::kFront : BadFaces::large(radius / largest);
     }
@@ -280,7 +239,7 @@ class Refiner {
     finish(spacing);
   }
 
-  // Halve a boundary edge, on all its sides if it is on a seam; false if it is too short.
+  // Halve a boundary edge, on all its sides if it is on a cut; false if it is too short.
   bool split_boundary(Index h) {
     const HalfEdges& e = t_.edges();
     const Index a = e.tail[h], b = e.tip(h);
@@ -288,7 +247,7 @@ class Refiner {
     if (2 * half < kShortestBoundaryEdge * std::min(wanted_[a], wanted_[b])) return false;
     const double spacing =
         std::min(options_.spacing, std::min(near_[a], near_[b]) + options_.growth * half);
-    const std::span<const CutEdges::Side> sides = seams_.sides(a);
+    const std::span<const CutEdges::Side> sides = cuts_.sides(a);
     if (sides.empty()) {
       t_.split(h, 0.5);
       finish(spacing);
@@ -299,7 +258,7 @@ class Refiner {
       middles.push_back(t_.split(t_.outgoing(side.tail), 0.5));
       finish(spacing);
     }
-    seams_.split(a, middles);
+    cuts_.split(a, middles);
     return true;
   }
 
@@ -331,7 +290,7 @@ class Refiner {
   const double sine_;
   std::vector<double> near_;    // per node: the spacing wanted where nodes are needed
   std::vector<double> wanted_;  // per node: the same with what is added far from there
-  CutEdges& seams_;
+  CutEdges& cuts_;
   BadFaces bad_;
   Index flips_ = 0;
 };
@@ -339,9 +298,9 @@ class Refiner {
 }  // namespace
 
 void refine_delaunay(IntrinsicTriangulation& triangulation, std::vector<double> vertex_spacing,
-                     const Remoteness& remoteness, const RefineOptions& options, CutEdges& seams,
+                     const Remoteness& remoteness, const RefineOptions& options, CutEdges& cuts,
                      RefineReport& report) {
-  Refiner(triangulation, std::move(vertex_spacing), remoteness, options, seams).run(report);
+  Refiner(triangulation, std::move(vertex_spacing), remoteness, options, cuts).run(report);
 }
 
 }  // namespace onmesh

@@ -25,17 +25,44 @@ std::string place(const TriangleMesh& mesh, Index vertex) {
                    (count == 1 ? ", " : ", the first one ") + where + "; " + remedy);
 }
 
-}  // namespace
+// Connectivity from OpenMesh with half-edges in the order of the faces' corners.
+HalfEdges flat_half_edges(const TriangleMesh& mesh, const HalfEdgeMesh& half_edges) {
+  const std::size_t count = mesh.faces.size() * 3;
+  HalfEdges out{std::vector<Index>(count), std::vector<Index>(count, kNone),
+                std::vector<double>(count)};
+  std::vector<Index> flat(half_edges.n_halfedges(), kNone);
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    auto h = half_edges.halfedge_handle(OpenMesh::FaceHandle(static_cast<int>(f)));
+    while (half_edges.from_vertex_handle(h).idx() != static_cast<int>(mesh.faces[f][0])) {
+      h = half_edges.next_halfedge_handle(h);
+    }
+    for (Index k = 0; k < 3; ++k, h = half_edges.next_halfedge_handle(h)) {
+      const Index e = 3 * f + k;
+      flat[static_cast<std::size_t>(h.idx())] = e;
+      out.tail[e] = mesh.faces[f][k];
+      out.length[e] =
+          (mesh.positions[mesh.faces[f][(k + 1) % 3]] - mesh.positions[mesh.faces[f][k]]).norm();
+    }
+  }
+  for (std::size_t i = 0; i < flat.size(); ++i) {
+    if (flat[i] == kNone) continue;
+    const auto opposite =
+        half_edges.opposite_halfedge_handle(OpenMesh::HalfedgeHandle(static_cast<int>(i)));
+    out.twin[flat[i]] = flat[static_cast<std::size_t>(opposite.idx())];
+    // Both sides must carry the same bits.
+    if (out.twin[flat[i]] != kNone) out.length[out.twin[flat[i]]] = out.length[flat[i]];
+  }
+  return out;
+}
 
-HalfEdgeMesh make_half_edge_mesh(const TriangleMesh& mesh) {
-  // OpenMesh would cut the surface at such places without a word, so they are looked for first.
+// Faces have three vertices, edges one or two faces that are wound alike, vertices one fan.
+void require_manifold(const TriangleMesh& mesh, const EdgeTable& edges) {
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (has_repeated_vertex(mesh.faces[f])) {
       throw InputError("face " + std::to_string(f) + " at " + place(mesh, mesh.faces[f][0]) +
                        " has the same vertex twice; remove it");
     }
   }
-  const EdgeTable edges(mesh);
   std::size_t branching = 0, turned = 0, first_branching = 0, first_turned = 0;
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (edges.sides(e).size() > 2 && branching++ == 0) first_branching = e;
@@ -66,6 +93,14 @@ HalfEdgeMesh make_half_edge_mesh(const TriangleMesh& mesh) {
                      " edges have faces of opposite winding, the first one " +
                      between(first_turned) + "; turn over the faces on one side");
   }
+}
+
+}  // namespace
+
+HalfEdgeMesh make_half_edge_mesh(const TriangleMesh& mesh) {
+  // OpenMesh would cut the surface at such places without a word, so they are looked for first.
+  const EdgeTable edges(mesh);
+  require_manifold(mesh, edges);
 
   HalfEdgeMesh result;
   result.reserve(mesh.positions.size(), edges.size(), mesh.faces.size());
@@ -83,6 +118,10 @@ HalfEdgeMesh make_half_edge_mesh(const TriangleMesh& mesh) {
     throw std::logic_error("OpenMesh changed a manifold mesh");
   }
   return result;
+}
+
+HalfEdges make_half_edges(const TriangleMesh& mesh) {
+  return flat_half_edges(mesh, make_half_edge_mesh(mesh));
 }
 
 }  // namespace onmesh

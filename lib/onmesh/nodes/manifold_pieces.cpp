@@ -7,6 +7,7 @@
 #include "onmesh/base/disjoint_sets.h"
 #include "onmesh/mesh/edge_table.h"
 #include "onmesh/nodes/delaunay_refine.h"
+#include "onmesh/nodes/make_overlay.h"
 #include "onmesh/nodes/sizing_field.h"
 
 namespace onmesh {
@@ -14,12 +15,12 @@ namespace {
 
 /// A mesh cut into manifold, consistently wound pieces. Faces keep their numbers; those that are
 /// turned over have their corners 1 and 2 exchanged.
-struct Pieces {
+struct ManifoldPieces {
   TriangleMesh mesh;            ///< positions and faces; copies of vertices after the originals
   std::vector<Index> original;  ///< per vertex
   std::vector<bool> turned;     ///< per face
   HalfEdges half_edges;
-  CutEdges seams;
+  CutEdges cuts;
 };
 
 class Cutter {
@@ -29,7 +30,7 @@ class Cutter {
     pieces_.turned.assign(mesh.faces.size(), false);
   }
 
-  Pieces run() {
+  ManifoldPieces run() {
     wind();
     name_vertices();
     connect();
@@ -122,13 +123,13 @@ class Cutter {
       const auto [low, high] = edges_.vertices(e);
       const double length = (mesh_.positions[high] - mesh_.positions[low]).norm();
       const auto sides = edges_.sides(e);
-      std::vector<CutEdges::Side> seam;
+      std::vector<CutEdges::Side> cut_sides;
       for (const EdgeSide& s : sides) {
         out.length[half_edge(s)] = length;
-        seam.push_back({out.tail[half_edge(s)], s.forward != pieces_.turned[s.face]});
+        cut_sides.push_back({out.tail[half_edge(s)], s.forward != pieces_.turned[s.face]});
       }
       if (cut_[e]) {
-        pieces_.seams.add(std::move(seam));
+        pieces_.cuts.add(std::move(cut_sides));
       } else if (sides.size() == 2) {
         out.twin[half_edge(sides[0])] = half_edge(sides[1]);
         out.twin[half_edge(sides[1])] = half_edge(sides[0]);
@@ -139,16 +140,16 @@ class Cutter {
   const TriangleMesh& mesh_;
   const EdgeTable edges_;
   std::vector<bool> cut_;  // per edge
-  Pieces pieces_;
+  ManifoldPieces pieces_;
 };
 
 /// One node for all that were one before the cuts, or came on both sides of one.
-void join_nodes(const Pieces& pieces, Index input_vertices, NodeMesh& nodes) {
+void join_nodes(const ManifoldPieces& pieces, Index input_vertices, NodeMesh& nodes) {
   const Index count = Index(nodes.nodes.size());
   std::vector<Index> number(count);
   std::iota(number.begin(), number.end(), Index(0));
   std::copy(pieces.original.begin(), pieces.original.end(), number.begin());
-  for (const auto& middles : pieces.seams.middles()) {
+  for (const auto& middles : pieces.cuts.middles()) {
     for (const Index m : middles) number[m] = middles[0];
   }
   // The first of them is the lowest, so that it has its number already.
@@ -184,11 +185,11 @@ void turn_back(const std::vector<bool>& turned, NodeSurface& surface) {
 
 }  // namespace
 
-NodeSurface refine_pieces(const TriangleMesh& mesh, const RefineOptions& options,
-                          RefineReport* report) {
+NodeSurface refine_in_pieces(const TriangleMesh& mesh, const RefineOptions& options,
+                             RefineReport* report) {
   check_spacing(options);
   const Index vertices = Index(mesh.positions.size());
-  Pieces pieces = Cutter(mesh).run();
+  ManifoldPieces pieces = Cutter(mesh).run();
   const std::vector<double> spacing = wanted_spacing(mesh, EdgeTable(mesh), options);
   std::vector<double> piece_spacing;
   for (const Index v : pieces.original) piece_spacing.push_back(spacing[v]);
@@ -196,11 +197,11 @@ NodeSurface refine_pieces(const TriangleMesh& mesh, const RefineOptions& options
   IntrinsicTriangulation triangulation(std::move(pieces.half_edges), Index(pieces.original.size()));
   RefineReport local;
   refine_delaunay(triangulation, std::move(piece_spacing), Remoteness(pieces.mesh, options),
-                  options, pieces.seams, local);
+                  options, pieces.cuts, local);
   NodeSurface surface{triangulation.node_mesh(), make_overlay(triangulation)};
 
   NodeMesh& nodes = surface.nodes;
-  for (const auto& sides : pieces.seams.edges()) {
+  for (const auto& sides : pieces.cuts.edges()) {
     if (sides.size() != 2) continue;
     const Index a = triangulation.outgoing(sides[0].tail),
                 b = triangulation.outgoing(sides[1].tail);

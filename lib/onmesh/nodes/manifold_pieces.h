@@ -7,13 +7,15 @@ namespace onmesh {
 
 /// Cut the mesh along its edges of three and more faces, at vertices with several fans, and across
 /// what has only one side, until it is made of pieces that half-edges can tell; refine these
-/// intrinsically as refine() does, where the sides of a cut are split together; and put the nodes
-/// on both sides of the cuts together again. Paths lead on from any side of an edge of three and
-/// more faces to all others.
+/// intrinsically as refine_manifold() does, where the sides of a cut are split together; and put
+/// the nodes on both sides of the cuts together again. Paths lead on from any side of an edge of
+/// three and more faces to all others.
 ///
 /// Works on any mesh without repeated vertices in a face. Input vertices stay nodes with their
-/// indices. \throw as refine()
-NodeSurface refine_pieces(const TriangleMesh& mesh, const RefineOptions& options,
-                          RefineReport* report = nullptr);
+/// indices.
+/// \throw UsageError if the spacing is not positive and finite
+/// \throw InputError if more than options.max_nodes would be needed
+NodeSurface refine_in_pieces(const TriangleMesh& mesh, const RefineOptions& options,
+                             RefineReport* report = nullptr);
 
 }  // namespace onmesh

@@ -14,9 +14,11 @@ namespace onmesh {
 struct NodeMesh {
   std::vector<SurfacePoint> nodes;  ///< where each node lies on the input mesh
   std::vector<std::array<Index, 3>> faces;
-  std::vector<std::array<double, 3>> lengths;  ///< lengths[f][k]: from corner k to corner (k+1)%3
-  std::vector<Index> node_offsets,
-      node_faces;  ///< faces around each node (CSR), ascending, each once
+  /// lengths[f][k]: of face f's edge from corner k to corner (k + 1) % 3, mesh units.
+  std::vector<std::array<double, 3>> lengths;
+  /// Faces around each node (CSR), ascending, each once: those of node n are node_faces from
+  /// node_offsets[n] to before node_offsets[n + 1].
+  std::vector<Index> node_offsets, node_faces;
 
   /// neighbours[f][k] = 3 g + l: edge k of face f is glued to edge l of face g, and to nothing
   /// else. kNone: boundary, or an edge with three or more faces. May be empty; then edges are told
@@ -31,11 +33,13 @@ struct NodeMesh {
 
   /// Fill node_offsets and node_faces from faces.
   void build_incidence();
-  double longest_edge() const;  ///< 0 without faces
+  /// 0 without faces.
+  double longest_edge() const;
+  /// From the face's lengths, square mesh units.
   double face_area(Index face) const;
 };
 
-/// A point in a node face.
+/// A point in a node face: barycentric coordinates that sum to 1.
 struct NodePoint {
   Index face = kNone;
   Vec3 barycentric = Vec3::Zero();

@@ -1,57 +1,71 @@
-// Refinement of a mesh into nodes: intrinsic Delaunay refinement to a graded size.
+// Refinement of a mesh into nodes of a graded size.
 #pragma once
 
 #include <vector>
 
 #include "onmesh/mesh/clean.h"
-#include "onmesh/nodes/half_edge_mesh.h"
-#include "onmesh/nodes/overlay.h"
+#include "onmesh/mesh/triangle_mesh.h"
+#include "onmesh/nodes/node_surface.h"
 
 namespace onmesh {
 
+/// How fine the nodes should be. Lengths are mesh units.
 struct RefineOptions {
-  double spacing = 0;  ///< largest node spacing, mesh units, > 0
+  /// Largest node spacing, > 0; must be given.
+  double spacing = 0;
   /// Spacing where the surface is curved, (0, spacing]; 0 = spacing. With Gaussian curvature K it
   /// is between the two: sqrt(flatness / |K|).
   double curved = 0;
-  double flatness = 0;  ///< see curved; >= 0
-  /// Curvature counts as spread over at least this area, in square mesh units.
+  /// See `curved`: the square of the spacing times |K|, dimensionless, >= 0.
+  double flatness = 0;
+  /// Curvature counts as spread over at least this area, square mesh units, >= 0.
   double spread = 0;
   /// Spacing at cones, creases and reflex corners, (0, spacing]; 0 = a quarter of that where the
-  /// surface is curved
+  /// surface is curved.
   double finest = 0;
-  double sharpness =
-      3;  ///< a vertex where distances bend by b radians: 1 / (1 + sharpness b) of the above
-  double growth = 0.25;  ///< how fast the spacing grows away from them, per unit of distance
-  double min_angle_degrees = 25;  ///< Delaunay refinement's angle bound, [0, 30]
+  /// At a vertex where distances bend by b radians the spacing is 1 / (1 + sharpness b) of what the
+  /// curvature would have it; per radian, >= 0.
+  double sharpness = 3;
+  /// How fast the spacing grows away from there: length per length, > 0.
+  double growth = 0.25;
+  /// Angle bound of Delaunay refinement, [0, 30] degrees.
+  double min_angle_degrees = 25;
   /// Refine by bisection, so that node faces are flat in space: bridges, whose lengths are
   /// straight, need that.
   bool flat_faces = false;
-  /// Faces that need nodes; empty = all. Farther than `reach` from them (straight in space, mesh
-  /// units) the spacing grows by `growth` per unit of distance, and faces may have any shape.
+  /// Faces that need nodes, one entry per face; empty = all. Farther than `reach` from them
+  /// (straight in space) the spacing grows by `growth` per unit of distance, and faces may have any
+  /// shape.
   std::vector<bool> needed;
+  /// See `needed`, >= 0.
   double reach = 0;
-  Index max_nodes = 200'000'000;  ///< stop with an InputError beyond
+  /// Stop with an InputError beyond so many.
+  Index max_nodes = 200'000'000;
 };
 
 struct RefineReport {
   Index input_vertices = 0, nodes = 0, faces = 0;
   Index flips = 0, insertions = 0;
   double smallest_angle_degrees = 0;  ///< intrinsic: over faces without a vertex that forces it
-  bool bisected = false;              ///< by bisection (refine_soup.h): with flat_faces
+  bool bisected = false;              ///< with options.flat_faces
 };
 
+/// Intrinsic Delaunay refinement of a manifold mesh (Sharp, Soliman & Crane, Navigating Intrinsic
+/// Triangulations, 2019, section 4.2; Chew, Guaranteed-quality mesh generation for curved surfaces,
+/// 1993). Input vertices stay nodes, with the same indices.
+/// \pre mesh is welded and went through clean()
 /// \throw UsageError if the spacing is not positive and finite
-void check_spacing(const RefineOptions& options);
+/// \throw InputError if the mesh is not manifold and consistently wound, or if more than
+///   options.max_nodes would be needed
+NodeSurface refine_manifold(const TriangleMesh& mesh, const RefineOptions& options,
+                            RefineReport* report = nullptr);
 
-/// Intrinsic Delaunay refinement of the mesh (Sharp, Soliman & Crane 2019, section 4.2; Chew 1993).
-/// Original vertices stay nodes, with the same indices.
-NodeSurface refine(const TriangleMesh& mesh, const HalfEdgeMesh& half_edges,
-                   const RefineOptions& options, RefineReport* report = nullptr);
-
-/// The refinement for any mesh as clean() leaves it: intrinsic, piece by piece if it is not
-/// manifold (refine_pieces.h); with options.flat_faces bisection inside the input's faces
-/// (refine_soup.h). \param cleaning what clean() reported of this mesh
+/// The refinement for any mesh as clean() leaves it: that of refine_manifold(), piece by piece if
+/// the mesh is not manifold; with options.flat_faces longest-edge bisection inside the input's
+/// faces. Input vertices stay nodes, with the same indices.
+/// \param cleaning what clean() reported of this mesh
+/// \throw UsageError if the spacing is not positive and finite
+/// \throw InputError if more than options.max_nodes would be needed
 NodeSurface refine(const TriangleMesh& mesh, const CleanReport& cleaning,
                    const RefineOptions& options, RefineReport* report = nullptr);
 

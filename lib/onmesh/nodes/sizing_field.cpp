@@ -8,6 +8,8 @@
 
 #include "onmesh/mesh/vertex_fans.h"
 
+#include "onmesh/base/error.h"
+
 namespace onmesh {
 namespace {
 
@@ -59,6 +61,7 @@ struct Link {
     return angle;
   }
 
+  /// How far the shortest cycle through an arc is from 2 pi, or two nodes are apart beyond pi.
   double bend() const {
     double bend = 0;
     for (std::size_t i = 0; i < arcs.size(); ++i) {
@@ -79,12 +82,8 @@ struct Around {
   bool branches = false;
 };
 
-}  // namespace
-
-std::vector<double> wanted_spacing(const TriangleMesh& mesh, const EdgeTable& edges,
-                                   const RefineOptions& options) {
-  const std::size_t vertices = mesh.positions.size();
-  std::vector<Around> around(vertices);
+std::vector<Around> look_around(const TriangleMesh& mesh, const EdgeTable& edges) {
+  std::vector<Around> around(mesh.positions.size());
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
       Around& at = around[mesh.faces[f][k]];
@@ -99,76 +98,156 @@ std::vector<double> wanted_spacing(const TriangleMesh& mesh, const EdgeTable& ed
       around[v].branches = around[v].branches || edges.sides(e).size() > 2;
     }
   }
+  return around;
+}
+
+/// The links of vertices that are not manifold.
+struct Links {
+  std::vector<Index> of_vertex;  ///< kNone at the others
+  std::vector<Link> links;
+};
+
+Links find_links(const TriangleMesh& mesh, const EdgeTable& edges,
+                 const std::vector<Around>& around) {
   DisjointSets fans = join_fans(mesh, edges);
   const std::vector<Index> fan_count = count_fans(mesh, fans);
-
-  // The links of vertices that are not manifold.
-  std::vector<Index> link_of(vertices, kNone);
-  std::vector<Link> links;
-  for (Index v = 0; v < vertices; ++v) {
+  Links result;
+  result.of_vertex.assign(around.size(), kNone);
+  for (Index v = 0; v < around.size(); ++v) {
     if (!around[v].branches && fan_count[v] < 2) continue;
-    link_of[v] = static_cast<Index>(links.size());
-    links.emplace_back();
+    result.of_vertex[v] = static_cast<Index>(result.links.size());
+    result.links.emplace_back();
   }
-  for (Index f = 0; f < mesh.faces.size() && !links.empty(); ++f) {
+  for (Index f = 0; f < mesh.faces.size() && !result.links.empty(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& face = mesh.faces[f];
       const Index v = face[k];
-      if (link_of[v] == kNone || around[v].faces > kLargestLink) continue;
-      Link& link = links[link_of[v]];
+      if (result.of_vertex[v] == kNone || around[v].faces > kLargestLink) continue;
+      Link& link = result.links[result.of_vertex[v]];
       const std::size_t from = link.number(face[(k + 1) % 3]);
       link.arcs.push_back({from, link.number(face[(k + 2) % 3]), corner_angle(mesh, f, k)});
     }
   }
+  return result;
+}
 
+/// How much distances bend at each vertex, radians.
+std::vector<double> bends(const TriangleMesh& mesh, const EdgeTable& edges,
+                          const std::vector<Around>& around) {
+  const Links links = find_links(mesh, edges, around);
+  std::vector<double> result(around.size(), 0);
+  for (Index v = 0; v < around.size(); ++v) {
+    const Around& at = around[v];
+    if (at.faces == 0) continue;
+    if (const Index link = links.of_vertex[v]; link != kNone) {
+      result[v] = at.faces > kLargestLink ? kSharpestBend : links.links[link].bend();
+    } else {
+      result[v] = at.border > 0 ? std::max(0.0, at.angle - kPi) : std::abs(2 * kPi - at.angle);
+    }
+  }
+  return result;
+}
+
+/// The spacing at a vertex where distances bend by so many radians, whatever is wanted around it.
+double spacing_at(double bend, double area, const RefineOptions& options) {
   const double curved = options.curved > 0 ? options.curved : options.spacing;
   const double finest = options.finest > 0 ? options.finest : curved / 4;
-  std::vector<double> spacing(vertices, options.spacing);
+  // |K| is the angle that is missing or too much, per area (Gauss-Bonnet).
+  const double by_curvature = std::sqrt(options.flatness * std::max(area, options.spread) / bend);
+  const double smooth =
+      bend > 0 ? std::min(std::max(by_curvature, curved), options.spacing) : options.spacing;
+  return std::max(finest, smooth / (1 + options.sharpness * bend));
+}
+
+/// Vertices joined by edges (CSR).
+struct Neighbours {
+  std::vector<std::size_t> offsets;
+  std::vector<Index> ends;
+
+  Neighbours(const EdgeTable& edges, std::size_t vertices) : offsets(vertices + 1, 0) {
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      for (const Index v : edges.vertices(e)) ++offsets[v + 1];
+    }
+    for (std::size_t v = 0; v < vertices; ++v) offsets[v + 1] += offsets[v];
+    ends.resize(offsets.back());
+    std::vector<std::size_t> next(offsets.begin(), offsets.end() - 1);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const auto [a, b] = edges.vertices(e);
+      ends[next[a]++] = b;
+      ends[next[b]++] = a;
+    }
+  }
+};
+
+/// Lower the spacing around each vertex to what its own and `growth` allow along the edges
+/// (Dijkstra's algorithm from all vertices at once, the finest first).
+void limit_growth(const TriangleMesh& mesh, const EdgeTable& edges, double flat, double growth,
+                  std::vector<double>& spacing) {
   using Reached = std::pair<double, Index>;
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> front;
-  for (Index v = 0; v < vertices; ++v) {
-    if (around[v].faces == 0) continue;
-    double bend = around[v].border > 0 ? std::max(0.0, around[v].angle - kPi)
-                                       : std::abs(2 * kPi - around[v].angle);
-    if (link_of[v] != kNone) {
-      bend = around[v].faces > kLargestLink ? kSharpestBend : links[link_of[v]].bend();
-    }
-    // |K| is the angle that is missing or too much, per area (Gauss-Bonnet).
-    const double by_curvature =
-        std::sqrt(options.flatness * std::max(around[v].area, options.spread) / bend);
-    const double smooth =
-        bend > 0 ? std::min(std::max(by_curvature, curved), options.spacing) : options.spacing;
-    spacing[v] = std::max(finest, smooth / (1 + options.sharpness * bend));
-    if (spacing[v] < options.spacing) front.emplace(spacing[v], v);
+  for (Index v = 0; v < spacing.size(); ++v) {
+    if (spacing[v] < flat) front.emplace(spacing[v], v);
   }
-  if (front.empty()) return spacing;
-
-  std::vector<std::size_t> offsets(vertices + 1, 0);
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    for (const Index v : edges.vertices(e)) ++offsets[v + 1];
-  }
-  for (std::size_t v = 0; v < vertices; ++v) offsets[v + 1] += offsets[v];
-  std::vector<Index> ends(offsets.back());
-  std::vector<std::size_t> next(offsets.begin(), offsets.end() - 1);
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto [a, b] = edges.vertices(e);
-    ends[next[a]++] = b;
-    ends[next[b]++] = a;
-  }
+  if (front.empty()) return;
+  const Neighbours neighbours(edges, spacing.size());
   while (!front.empty()) {
     const auto [reached, v] = front.top();
     front.pop();
     if (reached > spacing[v]) continue;
-    for (std::size_t i = offsets[v]; i < offsets[v + 1]; ++i) {
-      const Index to = ends[i];
-      const double there =
-          reached + options.growth * (mesh.positions[to] - mesh.positions[v]).norm();
+    for (std::size_t i = neighbours.offsets[v]; i < neighbours.offsets[v + 1]; ++i) {
+      const Index to = neighbours.ends[i];
+      const double there = reached + growth * (mesh.positions[to] - mesh.positions[v]).norm();
       if (there >= spacing[to]) continue;
       spacing[to] = there;
       front.emplace(there, to);
     }
   }
+}
+
+}  // namespace
+
+void check_spacing(const RefineOptions& options) {
+  if (!(options.spacing > 0) || !std::isfinite(options.spacing)) {
+    throw UsageError("the node spacing must be positive and finite");
+  }
+}
+
+std::vector<double> wanted_spacing(const TriangleMesh& mesh, const EdgeTable& edges,
+                                   const RefineOptions& options) {
+  const std::vector<Around> around = look_around(mesh, edges);
+  const std::vector<double> bend = bends(mesh, edges, around);
+  std::vector<double> spacing(mesh.positions.size(), options.spacing);
+  for (Index v = 0; v < spacing.size(); ++v) {
+    if (around[v].faces > 0) spacing[v] = spacing_at(bend[v], around[v].area, options);
+  }
+  limit_growth(mesh, edges, options.spacing, options.growth, spacing);
   return spacing;
+}
+
+Remoteness::Remoteness(const TriangleMesh& mesh, const RefineOptions& options)
+    : mesh_(mesh), options_(options) {
+  const std::vector<bool>& needed = options.needed;
+  if (needed.empty()) return;
+  if (needed.size() != mesh.faces.size()) {
+    throw UsageError("needed: one entry per face of the mesh is wanted");
+  }
+  if (std::find(needed.begin(), needed.end(), false) == needed.end()) return;
+  needed_.positions = mesh.positions;
+  const double least_area = 1e-12 * mesh.diagonal() * mesh.diagonal();
+  bool has_area = false;
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    if (!needed[f]) continue;
+    needed_.faces.push_back(mesh.faces[f]);
+    has_area = has_area || mesh.face_area(f) > least_area;
+  }
+  if (has_area) nearest_.emplace(needed_);
+}
+
+double Remoteness::operator()(const SurfacePoint& point) const {
+  if (!nearest_ || point.face == kNone || options_.needed[point.face]) return 0;
+  const Vec3 at = mesh_.position(point);
+  const double distance = (needed_.position(nearest_->closest(at)) - at).norm();
+  return options_.growth * std::max(0.0, distance - options_.reach);
 }
 
 }  // namespace onmesh

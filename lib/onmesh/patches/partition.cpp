@@ -1,11 +1,9 @@
-// The partition of the node mesh's faces into groups: recursive bisection by hop distance, of small
-// clusters of faces rather than of faces, which is several times faster.
+#include "onmesh/patches/partition.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
-
-#include "onmesh/patches/patch.h"
 
 namespace onmesh {
 namespace {

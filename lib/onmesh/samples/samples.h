@@ -5,7 +5,7 @@
 
 #include "onmesh/atlas/texel_map.h"
 #include "onmesh/base/large_array.h"
-#include "onmesh/nodes/overlay.h"
+#include "onmesh/nodes/node_surface.h"
 
 namespace onmesh {
 

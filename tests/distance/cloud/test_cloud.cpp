@@ -1,12 +1,19 @@
-// The point-cloud heat back end: its distances.
+// The heat method on a point cloud: its distances.
+#include "onmesh/distance/cloud/cloud.h"
+
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "onmesh/distance/exact.h"
+#include "onmesh/distance/heat/heat.h"
+#include "onmesh/distance/unfold.h"
 #include "onmesh/filter/patch_loop.h"
 #include "onmesh/nodes/bisection.h"
+#include "onmesh/patches/grow_patch.h"
+#include "onmesh/patches/partition.h"
 #include "onmesh/procedural/shapes.h"
 #include "onmesh/procedural/texture.h"
 #include "support/brute_force.h"
@@ -231,7 +238,7 @@ TEST_CASE("a Moebius strip has the distances of its unrolled double cover, by cl
   const TriangleMesh mesh = make_moebius(4, length, 1);
   RefineOptions options;
   options.spacing = h;
-  const NodeMesh nodes = refine_soup(mesh, options).nodes;
+  const NodeMesh nodes = refine_by_bisection(mesh, options).nodes;
   const auto flat = [&](Index i) {
     return Vec2((mesh.uv(nodes.nodes[i]) - Vec2(0.5, 0.5)) * length / kMoebiusScale);
   };

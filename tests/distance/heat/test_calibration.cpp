@@ -4,15 +4,16 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "onmesh/distance/backend.h"
+#include "onmesh/distance/unfold.h"
 #include "support/distance_errors.h"
+#include "support/simple_shapes.h"
 
 namespace onmesh {
 namespace {
 
 using namespace simple;
 
-TEST_CASE("most of what is wrong alike along every ray is taken out", "[heat]") {
+TEST_CASE("most of what is wrong alike along every ray is taken out", "[calibration]") {
   const int n = 24;
   const TriangleMesh mesh = plane(n, n, n, n, 0.25);  // edges of about 1
   const NodeMesh nodes = make_node_mesh(mesh);
@@ -53,7 +54,7 @@ TEST_CASE("most of what is wrong alike along every ray is taken out", "[heat]") 
   }
 }
 
-TEST_CASE("what the march did not reach keeps its solution up to a constant", "[heat]") {
+TEST_CASE("what the march did not reach keeps its solution up to a constant", "[calibration]") {
   // Beyond a node that no face joins to the source nothing is known.
   TriangleMesh mesh = plane(6, 6, 6, 6);
   mesh.positions.emplace_back(3, 3, 0.1);

@@ -1,10 +1,13 @@
 // Halved patches: the same surface with faces of half the size.
+#include "onmesh/distance/unfold.h"
 #include "onmesh/kernel/splat/halved_patch.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "onmesh/nodes/refine.h"
+#include "onmesh/patches/grow_patch.h"
+#include "onmesh/patches/partition.h"
 #include "onmesh/procedural/shapes.h"
 #include "support/flat_patch.h"
 #include "support/simple_shapes.h"
@@ -25,7 +28,7 @@ OnSphere make_on_sphere() {
   const TriangleMesh mesh = make_sphere(3);
   RefineOptions options;
   options.spacing = 0.2;
-  on.surface = refine(mesh, make_half_edge_mesh(mesh), options);
+  on.surface = refine_manifold(mesh, options);
   std::vector<double> weights(on.surface.nodes.faces.size(), 1);
   const auto groups = partition_faces(on.surface.nodes, weights, 40);
   const auto backend = make_unfold();

@@ -1,12 +1,5 @@
-// Heat method on a point cloud (Crane, Weischedel & Wardetzky 2013, section 3.2.3; Sharp & Crane
-// 2020, section 5.7): the nodes with their normals, joined by local Delaunay triangulations.
-//
-// A patch becomes another complex on the same nodes, which the solver of mesh heat takes as its
-// own. Of the patch's faces only adjacency and the lengths of their edges count. Adjacency says
-// which points are neighbours, so that close sheets do not leak, and where sheets begin and end.
-// Shapes come from positions and normals, and so do lengths between points that are not adjacent.
-// Bridges join no points: the march over the complex goes across them.
-#include "onmesh/distance/backend.h"
+#include "onmesh/distance/cloud/cloud.h"
+
 #include "onmesh/distance/cloud/complex.h"
 #include "onmesh/distance/heat/bridges.h"
 #include "onmesh/distance/heat/heat.h"

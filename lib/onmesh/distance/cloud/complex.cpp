@@ -87,8 +87,8 @@ void add_faces(const PointCloud& points, std::vector<LocalTriangle>& triangles) 
 std::vector<LocalTriangle> choose(const PointCloud& points, const std::vector<Index>& order) {
   std::vector<LocalTriangle> found;
   found.reserve(8 * points.size());
-  LocalTriangulation star(points, order);
-  for (Index p = 0; p < points.size(); ++p) star.triangulate(p, found);
+  LocalTriangulation local(points, order);
+  for (Index p = 0; p < points.size(); ++p) local.triangulate(p, found);
   const std::size_t first_face = found.size();
   add_faces(points, found);
   for (LocalTriangle& t : found) t = from_lowest(t);
@@ -138,7 +138,7 @@ std::vector<LocalTriangle> choose(const PointCloud& points, const std::vector<In
 }  // namespace
 
 Complex make_complex(const Patch& patch, const NodeGeometry& geometry) {
-  const PointCloud points = make_points(patch, geometry);
+  const PointCloud points = make_point_cloud(patch, geometry);
   Complex complex;
   Patch& out = complex.triangles;
   out.nodes = patch.nodes;
@@ -167,7 +167,7 @@ Complex make_complex(const Patch& patch, const NodeGeometry& geometry) {
   for (const auto& l : out.lengths)
     out.longest_edge = std::max({out.longest_edge, l[0], l[1], l[2]});
   complex.cover = out;
-  complex.weights = make_delaunay(complex.cover);
+  complex.weights = flip_tufted_cover(complex.cover);
   return complex;
 }
 

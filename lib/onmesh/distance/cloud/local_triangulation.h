@@ -27,9 +27,11 @@ struct LocalTriangle {
 /// the four points around it, symmetrically, so that all four decide alike.
 class LocalTriangulation {
  public:
+  /// \param order per local node, all different: decides between equal choices alike in all patches
+  /// \pre points and order outlive this
   LocalTriangulation(const PointCloud& points, const std::vector<Index>& order);
 
-  /// Appends the triangles around `point`. Where the neighbourhood cannot be flattened (the normals
+  /// Append the triangles around a point. Where the neighbourhood cannot be flattened (the normals
   /// cancel, or the neighbours come out of order), these are the faces around the point.
   void triangulate(Index point, std::vector<LocalTriangle>& triangles);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "onmesh/patches/patch_edges.h"
+
 namespace onmesh::cloud {
 namespace {
 
@@ -204,7 +206,7 @@ NodeGeometry make_node_geometry(const TriangleMesh& mesh, const NodeMesh& nodes)
   return geometry;
 }
 
-PointCloud make_points(const Patch& patch, const NodeGeometry& geometry) {
+PointCloud make_point_cloud(const Patch& patch, const NodeGeometry& geometry) {
   return FanBuilder(patch, geometry).build();
 }
 

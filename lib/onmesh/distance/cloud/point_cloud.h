@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "onmesh/mesh/triangle_mesh.h"
+#include "onmesh/nodes/node_mesh.h"
 #include "onmesh/patches/patch.h"
 
 namespace onmesh::cloud {
@@ -18,6 +20,7 @@ struct NodeGeometry {
   /// Nodes around which no face has area: no distance leads there.
   Index skipped = 0;
 };
+/// \pre the nodes lie on the mesh
 NodeGeometry make_node_geometry(const TriangleMesh& mesh, const NodeMesh& nodes);
 
 /// A neighbour of a point.
@@ -45,7 +48,8 @@ struct PointCloud {
 
   Index size() const { return Index(node.size()); }
 };
-PointCloud make_points(const Patch& patch, const NodeGeometry& geometry);
+/// \param geometry of the node mesh that the patch was cut from
+PointCloud make_point_cloud(const Patch& patch, const NodeGeometry& geometry);
 
 /// A neighbour as a point sees it: where it comes to lie when the surface between the two is
 /// flattened into the point's tangent plane.
@@ -57,12 +61,14 @@ struct Sight {
 
 /// Two points on flat surroundings see each other over the crease in which their planes meet, if it
 /// runs between them: the one's plane is turned about it into the other's. All others are as far as
-/// the straight line is long. \param turn of the other point's normal
+/// the straight line is long.
+/// \param turn of the other point's normal: see Spoke::turn
 Sight look(const PointCloud& points, Index from, Index to, int turn);
 
 /// The length of an edge of the cloud's triangles. Of adjacent points that of the patch's edge (a
 /// sight would cut short what is folded more than once between them), else of the sight, or of the
 /// straight line if there is none. The same in both directions.
+/// \param turn see look()
 double edge_length(const PointCloud& points, Index from, Index to, int turn);
 
 }  // namespace onmesh::cloud

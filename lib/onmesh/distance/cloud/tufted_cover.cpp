@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
-#include "onmesh/nodes/intrinsic_triangulation.h"
+#include "onmesh/nodes/half_edges.h"
+#include "onmesh/nodes/node_mesh.h"
 
 namespace onmesh::cloud {
 namespace {
@@ -83,7 +84,7 @@ bool is_delaunay(const Patch& complex, const std::vector<Side>& sides) {
 
 }  // namespace
 
-std::vector<float> make_delaunay(Patch& complex) {
+std::vector<float> flip_tufted_cover(Patch& complex) {
   const std::vector<Side> sides = find_sides(complex);
   if (is_delaunay(complex, sides)) return {};
   HalfEdges cover = make_cover(complex, sides);

@@ -14,6 +14,6 @@ namespace onmesh::cloud {
 /// copies are faces of weight 1/2.
 /// \param complex corners and lengths are changed; edges are told apart by their nodes
 /// \return weights per face; empty if nothing had to be flipped
-std::vector<float> make_delaunay(Patch& complex);
+std::vector<float> flip_tufted_cover(Patch& complex);
 
 }  // namespace onmesh::cloud

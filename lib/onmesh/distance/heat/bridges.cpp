@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "onmesh/distance/unfold.h"
+
 namespace onmesh::heat {
 namespace {
 

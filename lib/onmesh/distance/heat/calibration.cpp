@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "onmesh/distance/backend.h"
+#include "onmesh/distance/distance_table.h"
 
 namespace onmesh::heat {
 namespace {

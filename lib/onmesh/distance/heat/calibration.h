@@ -8,31 +8,37 @@
 namespace onmesh::heat {
 
 /// How far the near field goes at least, as a share of the kernel's radius, which is two edges less
-/// than the reach of the tables (filter_patches.cpp): about what two rings of nodes cover where the
-/// spacing is sigma. A fixed share, so that finer nodes leave no more of the kernel to heat, and
-/// err less.
+/// than the reach of the tables (filter/patch_loop.cpp): about what two rings of nodes cover where
+/// the spacing is sigma. A fixed share, so that finer nodes leave no more of the kernel to heat,
+/// and err less.
 inline constexpr double kNearShare = 0.88;
 
 /// The heat method's solution is a distance up to a constant, and to an error that depends on the
 /// direction: the front keeps something of the directions of the faces around the source. Along a
 /// ray from the source this error hardly changes. So the difference to the marched distances at the
 /// near field's end is carried on along the rays: over each face the way the march would go
-/// (unfold.cpp), from the edge that the ray to a node crosses.
+/// (unfold.h), from the edge that the ray to a node crosses.
+///
+/// The method is our own. What it shares with the factored eikonal equation (Fomel, Luo & Zhao,
+/// Fast sweeping method for the factored eikonal equation, 2009) is that what is wrong at the
+/// source is taken from elsewhere and only a smooth remainder is left to the solver.
 ///
 /// Keeps buffers: one object per thread.
 class Calibration {
  public:
-  /// \param near the complex of the march  \param reach mesh units
+  /// \param near the complex of the march
+  /// \param reach mesh units
   Calibration(const Patch& near, double reach);
 
   /// How far the near field must be marched, in mesh units.
   double near_reach() const { return near_reach_; }
 
   /// Complete one row of the table.
+  /// \param source local node
   /// \param phi per node of the patch: the solution, in mesh units
   /// \param row squared distances, marched as far as near_reach(); beyond the near field (two rings
-  /// of nodes, or kNearShare of the kernel) entries are replaced: kUnreachable beyond half an
-  /// edge more than reach
+  ///   of nodes, or kNearShare of the kernel) entries are replaced: kUnreachable beyond half an
+  ///   edge more than reach
   void complete(Index source, const std::vector<double>& phi, float* row);
 
  private:

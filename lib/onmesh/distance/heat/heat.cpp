@@ -1,34 +1,21 @@
-// The heat method (Crane, Weischedel & Wardetzky 2013) on one patch, 16 sources at a time.
-//
-// At this range, a few node spacings, the method as published is no better than Euclidean distance.
-// What makes it accurate here:
-// - The patch is split 1 -> 4 (intrinsically: edge lengths halve), which quarters the time step t.
-// - Its error is first order in sqrt(t), so the divergence is extrapolated from t and 4 t:
-//   2 div(t) - div(4 t). Both are linear up to the one Poisson solve, so that costs one heat solve.
-// - The near field comes from the unfolding march on the same complex, to which the rest is fitted
-//   along every ray (heat_calibration.h).
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "onmesh/distance/heat/heat.cpp"
-#include <hwy/foreach_target.h>
-// Above is what includes this file again, so it comes before the rest.
-#include <hwy/highway.h>
+#include "onmesh/distance/heat/heat.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "onmesh/base/simd_targets.h"
 #include "onmesh/distance/heat/bridges.h"
 #include "onmesh/distance/heat/calibration.h"
-#include "onmesh/distance/heat/heat.h"
 #include "onmesh/distance/heat/linear_systems.h"
+#include "onmesh/distance/unfold.h"
 
-#ifndef ONMESH_HEAT_SHARED
-#define ONMESH_HEAT_SHARED
-namespace onmesh::heat {
-constexpr int kLanes = 16;
-}  // namespace onmesh::heat
-#endif
+// This file is compiled once per instruction set (Highway); the best one is chosen at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "onmesh/distance/heat/heat.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace onmesh::heat::HWY_NAMESPACE {
@@ -39,11 +26,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 // tree.
 void solve(const Factor& factor, const std::vector<Index>& rows, float* x) {
   const hn::CappedTag<float, kLanes> d;
-  const int lanes = int(hn::Lanes(d));
+  const std::size_t lanes = hn::Lanes(d);
   // x_i := scale x_i - sum_k value_k x_k.
   const auto substitute = [&](Index i, float scale, Index begin, Index end, const Index* index,
                               const float* value) {
-    for (int p = 0; p < kLanes; p += lanes) {
+    for (std::size_t p = 0; p < kLanes; p += lanes) {
       float* const at = x + std::size_t(i) * kLanes + p;
       auto a = hn::Mul(hn::LoadU(d, at), hn::Set(d, scale)), b = hn::Zero(d);
       Index k = begin;
@@ -70,7 +57,7 @@ void solve(const Factor& factor, const std::vector<Index>& rows, float* x) {
 // out += weight times the integrated divergence of -grad u / |grad u|.
 void divergence(const std::vector<SplitFace>& faces, const float* u, float weight, float* out) {
   const hn::CappedTag<float, kLanes> d;
-  const int lanes = int(hn::Lanes(d));
+  const std::size_t lanes = hn::Lanes(d);
   const auto zero = hn::Zero(d), one = hn::Set(d, 1.0F);
   for (const SplitFace& f : faces) {
     const auto gx1 = hn::Set(d, f.gx1), gy1 = hn::Set(d, f.gy1), gx2 = hn::Set(d, f.gx2),
@@ -78,7 +65,7 @@ void divergence(const std::vector<SplitFace>& faces, const float* u, float weigh
     const std::size_t at0 = std::size_t(f.corner[0]) * kLanes;
     const std::size_t at1 = std::size_t(f.corner[1]) * kLanes;
     const std::size_t at2 = std::size_t(f.corner[2]) * kLanes;
-    for (int p = 0; p < kLanes; p += lanes) {
+    for (std::size_t p = 0; p < kLanes; p += lanes) {
       const auto u0 = hn::LoadU(d, u + at0 + p);
       const auto u1 = hn::Sub(hn::LoadU(d, u + at1 + p), u0);
       const auto u2 = hn::Sub(hn::LoadU(d, u + at2 + p), u0);
@@ -124,33 +111,33 @@ constexpr float kSourceHeat = 1e25F;
 // Solves for the patch's distances from up to kLanes core nodes at a time, up to a constant each.
 class Solver {
  public:
-  explicit Solver(const System& system)
-      : system_(system),
-        heat_(std::size_t(system.size) * kLanes),
+  explicit Solver(const LinearSystems& systems)
+      : systems_(systems),
+        heat_(std::size_t(systems.size) * kLanes),
         phi_(heat_.size()),
-        all_(system.size),
-        is_marked_(system.size, 0) {
-    for (Index i = 0; i < system.size; ++i) all_[i] = i;
+        all_(systems.size),
+        is_marked_(systems.size, 0) {
+    for (Index i = 0; i < systems.size; ++i) all_[i] = i;
   }
 
-  void solve(Index first, int count) {
+  void solve(Index first, Index count) {
     std::fill(phi_.begin(), phi_.end(), 0.0F);
-    add_divergence(system_.heat, first, count, 2);
-    add_divergence(system_.heat4, first, count, -1);
-    HWY_DYNAMIC_DISPATCH(solve)(system_.poisson, all_, phi_.data());
+    add_divergence(systems_.heat, first, count, 2);
+    add_divergence(systems_.heat4, first, count, -1);
+    HWY_DYNAMIC_DISPATCH(solve)(systems_.poisson, all_, phi_.data());
   }
   // In mesh units.
-  double value(Index node, int lane) const {
-    return system_.scale * phi_[std::size_t(system_.split_node[node]) * kLanes + lane];
+  double value(Index node, Index lane) const {
+    return systems_.scale * phi_[std::size_t(systems_.split_node[node]) * kLanes + lane];
   }
 
  private:
-  void add_divergence(const Factor& factor, Index first, int count, float weight) {
+  void add_divergence(const Factor& factor, Index first, Index count, float weight) {
     std::fill(heat_.begin(), heat_.end(), 0.0F);
     // The rows that sources reach: their ancestors in the elimination tree.
     rows_.clear();
-    for (int lane = 0; lane < count; ++lane) {
-      Index row = system_.split_node[first + lane];
+    for (Index lane = 0; lane < count; ++lane) {
+      Index row = systems_.split_node[first + lane];
       heat_[std::size_t(row) * kLanes + lane] = kSourceHeat;
       while (!is_marked_[row]) {
         is_marked_[row] = 1;
@@ -162,10 +149,10 @@ class Solver {
     std::sort(rows_.begin(), rows_.end());
     for (const Index row : rows_) is_marked_[row] = 0;
     HWY_DYNAMIC_DISPATCH(solve)(factor, rows_, heat_.data());
-    HWY_DYNAMIC_DISPATCH(divergence)(system_.faces, heat_.data(), weight, phi_.data());
+    HWY_DYNAMIC_DISPATCH(divergence)(systems_.faces, heat_.data(), weight, phi_.data());
   }
 
-  const System& system_;
+  const LinearSystems& systems_;
   std::vector<float> heat_, phi_;
   std::vector<Index> all_, rows_;
   std::vector<unsigned char> is_marked_;
@@ -192,16 +179,16 @@ void fill(const Patch& near, const Patch& flow, const std::vector<float>& weight
   Calibration calibration(near, reach);
   make_unfold()->fill(near, calibration.near_reach(), table);
   if (!(near.longest_edge > 0)) return;
-  const System system = make_system(flow, weights, reach);
-  Solver solver(system);
+  const LinearSystems systems = make_linear_systems(flow, weights, reach);
+  Solver solver(systems);
   std::vector<double> phi(near.nodes.size());
-  for (Index first = 0; first < near.core_nodes; first += kLanes) {
-    const int count = int(std::min<Index>(kLanes, near.core_nodes - first));
+  for (Index first = 0; first < near.core_nodes; first += Index(kLanes)) {
+    const Index count = std::min(Index(kLanes), near.core_nodes - first);
     solver.solve(first, count);
-    for (int lane = 0; lane < count; ++lane) {
+    for (Index lane = 0; lane < count; ++lane) {
       const Index source = first + lane;
       for (Index node = 0; node < phi.size(); ++node)
-        phi[node] = system.component[node] == system.component[source]
+        phi[node] = systems.component[node] == systems.component[source]
                         ? solver.value(node, lane)
                         : std::numeric_limits<double>::infinity();
       calibration.complete(source, phi, table.squared.data() + std::size_t(source) * table.columns);

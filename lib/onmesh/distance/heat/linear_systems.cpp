@@ -11,11 +11,14 @@
 #include "onmesh/base/disjoint_sets.h"
 #include "onmesh/base/error.h"
 #include "onmesh/base/triangle.h"
+#include "onmesh/nodes/node_mesh.h"
+#include "onmesh/patches/patch_edges.h"
 
 namespace onmesh::heat {
 namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
+using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
 
 // Gradients of the hat functions on a triangle with these lengths.
 SplitFace make_face(const std::array<Index, 3>& corner, const std::array<double, 3>& l) {
@@ -87,7 +90,7 @@ int most_hops(const Patch& patch) {
 // The length of border that each node of the split patch stands for.
 std::vector<double> border_lengths(const Patch& patch,
                                    const std::vector<std::array<Index, 3>>& middle,
-                                   const System& system) {
+                                   const LinearSystems& system) {
   std::vector<Index> sides(system.size - patch.nodes.size(), 0);
   for (const auto& m : middle)
     for (const Index e : m) ++sides[e];
@@ -104,7 +107,7 @@ std::vector<double> border_lengths(const Patch& patch,
 }
 
 // Splits every face 1 -> 4; returns the mean edge length of the split patch.
-double split_faces(const Patch& patch, const std::vector<float>& weights, System& system,
+double split_faces(const Patch& patch, const std::vector<float>& weights, LinearSystems& system,
                    std::vector<double>& border) {
   Index edges = 0;
   const auto middle = number_edges(patch, edges);
@@ -130,31 +133,25 @@ double split_faces(const Patch& patch, const std::vector<float>& weights, System
   return sum / double(3 * patch.corners.size());
 }
 
-}  // namespace
-
-System make_system(const Patch& patch, const std::vector<float>& weights, double reach) {
-  System system;
-  system.scale = patch.longest_edge;
-  system.component = find_components(patch);
-  std::vector<double> border;
-  const double spacing = split_faces(patch, weights, system, border);
+// The square root of the time step, in the system's unit.
+double root_time_step(const Patch& patch, double spacing, double scale, double reach) {
   // sqrt(t) is .84 node spacings at least: below, the mesh does not resolve the front. What the
   // front then still has of the mesh's directions bends all distances alike, so farther out it is a
   // mean of spacing and reach; above 1.7 spacings, curvature bends it more. Far out it grows so
   // that exp(-reach / sqrt(t)) stays a float.
   constexpr double kDecay = 60;
   const double edge = 2 * spacing;
-  double root_time =
-      std::clamp(0.4 * std::sqrt(edge * reach / system.scale), 0.84 * edge, 1.7 * edge);
-  if (reach > kDecay * root_time * system.scale)
-    root_time =
-        std::max(root_time, std::min(reach / system.scale, 2.0 * most_hops(patch)) / kDecay);
-  const double time = root_time * root_time;
+  double root_time = std::clamp(0.4 * std::sqrt(edge * reach / scale), 0.84 * edge, 1.7 * edge);
+  if (reach > kDecay * root_time * scale)
+    root_time = std::max(root_time, std::min(reach / scale, 2.0 * most_hops(patch)) / kDecay);
+  return root_time;
+}
 
-  // Stiffness (positive semidefinite) and lumped mass.
+// L of the split patch, and the diagonal of M.
+Matrix assemble(const LinearSystems& system, std::vector<double>& mass) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(9 * system.faces.size() + system.size);
-  std::vector<double> mass(system.size, 0);
+  mass.assign(system.size, 0);
   for (const SplitFace& f : system.faces) {
     const std::array<double, 3> gx{-double(f.gx1) - f.gx2, f.gx1, f.gx2};
     const std::array<double, 3> gy{-double(f.gy1) - f.gy2, f.gy1, f.gy2};
@@ -167,18 +164,41 @@ System make_system(const Patch& patch, const std::vector<float>& weights, double
   for (Index i = 0; i < system.size; ++i) entries.emplace_back(i, i, 0);
   Matrix laplacian(system.size, system.size);
   laplacian.setFromTriplets(entries.begin(), entries.end());
+  return laplacian;
+}
 
-  // One fill-reducing order for all systems, applied to the numbers themselves.
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse, order;
+// One fill-reducing order for all systems: the new number of each row.
+Permutation fill_reducing_order(const Matrix& laplacian) {
+  Permutation inverse;
   Eigen::AMDOrdering<int>()(laplacian, inverse);
-  order = inverse.inverse();
+  return inverse.inverse();
+}
+
+Matrix reordered(const Matrix& matrix, const Permutation& order) {
+  Matrix permuted;
+  permuted = matrix.twistedBy(order);
+  return permuted.transpose();  // the same, with its indices sorted
+}
+
+}  // namespace
+
+LinearSystems make_linear_systems(const Patch& patch, const std::vector<float>& weights,
+                                  double reach) {
+  LinearSystems system;
+  system.scale = patch.longest_edge;
+  system.component = find_components(patch);
+  std::vector<double> border, mass;
+  const double spacing = split_faces(patch, weights, system, border);
+  const double root_time = root_time_step(patch, spacing, system.scale, reach);
+  const double time = root_time * root_time;
+
+  const Matrix laplacian = assemble(system, mass);
+  const Permutation order = fill_reducing_order(laplacian);
+  Matrix ordered = reordered(laplacian, order);
   const auto& number = order.indices();
   for (SplitFace& f : system.faces)
     for (Index& corner : f.corner) corner = Index(number[corner]);
   system.split_node.assign(number.data(), number.data() + patch.nodes.size());
-  Matrix permuted, ordered;
-  permuted = laplacian.twistedBy(order);
-  ordered = permuted.transpose();  // the same, with its indices sorted
 
   // A node without area (all its faces are degenerate) gets an equation of its own. The border lets
   // heat out, n . grad u = -u / (2 sqrt(t)): half of what it takes to let a straight front pass, so

@@ -1,4 +1,5 @@
 #include "onmesh/kernel/splat/halved_patch.h"
+#include "onmesh/patches/patch_edges.h"
 
 #include <algorithm>
 #include <cassert>

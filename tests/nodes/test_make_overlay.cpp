@@ -1,13 +1,15 @@
+#include "onmesh/nodes/make_overlay.h"
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <random>
 
 #include "onmesh/mesh_io/read_mesh.h"
-#include "onmesh/nodes/intrinsic_triangulation.h"
-#include "onmesh/nodes/overlay.h"
+#include "onmesh/nodes/half_edge_mesh.h"
 #include "onmesh/nodes/refine.h"
 #include "onmesh/procedural/shapes.h"
 #include "support/paths.h"
+#include "support/small_meshes.h"
 
 using namespace onmesh;
 
@@ -24,7 +26,7 @@ SurfacePoint random_point(const TriangleMesh& mesh, std::mt19937& random) {
 }
 
 double worst_round_trip(const TriangleMesh& mesh, bool flipped) {
-  IntrinsicTriangulation t(mesh, make_half_edge_mesh(mesh));
+  IntrinsicTriangulation t(make_half_edges(mesh), Index(mesh.positions.size()));
   if (flipped) t.flip_to_delaunay();
   const Overlay overlay = make_overlay(t);
   std::mt19937 random(1);
@@ -38,13 +40,8 @@ double worst_round_trip(const TriangleMesh& mesh, bool flipped) {
 }
 
 TriangleMesh spindle(double height) {
-  TriangleMesh mesh;
-  mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, height, 0),
-                    Vec3(0.5, height / 3, height)};
-  mesh.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  mesh.face_uvs.assign(4, {kNone, kNone, kNone});
-  mesh.face_materials.assign(4, kNone);
-  return mesh;
+  return bare_mesh({{0, 0, 0}, {1, 0, 0}, {0.5, height, 0}, {0.5, height / 3, height}},
+                   {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
 }
 
 }  // namespace
@@ -65,7 +62,7 @@ TEST_CASE("no point falls between the pieces of an overlay", "[overlay]") {
                                    make_u_sheet(1, 1, 0.02, 4), spindle(0.01)}) {
     RefineOptions options;
     options.spacing = 0.13;
-    const NodeSurface surface = refine(mesh, make_half_edge_mesh(mesh), options);
+    const NodeSurface surface = refine_manifold(mesh, options);
     std::mt19937 random(2);
     for (int i = 0; i < 5000; ++i) {
       const SurfacePoint p = random_point(mesh, random);
@@ -83,7 +80,7 @@ TEST_CASE("pieces lay node faces out true to length", "[overlay]") {
   const TriangleMesh mesh = make_blob(2, 8);
   RefineOptions options;
   options.spacing = 0.2;
-  const NodeSurface surface = refine(mesh, make_half_edge_mesh(mesh), options);
+  const NodeSurface surface = refine_manifold(mesh, options);
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     const auto corner = mesh.corners(f);
     for (Index k = surface.overlay.face_offsets[f]; k < surface.overlay.face_offsets[f + 1]; ++k) {

@@ -1,21 +1,16 @@
-#include "onmesh/patches/patch.h"
+#include "onmesh/patches/grow_patch.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <queue>
-#include <tuple>
 #include <utility>
 
 namespace onmesh {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// ---------------------------------------------------------------------------------------------
-// Growth: distance from the core, by unfolding
-// ---------------------------------------------------------------------------------------------
 
 // Numbers keys 0, 1, 2, ... in the order of their first appearance (open addressing).
 class Numbering {
@@ -170,8 +165,10 @@ bool within(const Growth& growth, const NodeMesh& mesh, Index face, double reach
   return false;
 }
 
-Patch grow(const NodeMesh& mesh, const std::vector<Index>& core_faces, const Reach& reach) {
-  Numbering faces(4 * core_faces.size()), nodes(4 * core_faces.size());
+// The core's faces and, after them, the others that can hold a point within reach.
+Numbering faces_within(const NodeMesh& mesh, const std::vector<Index>& core_faces,
+                       const Reach& reach) {
+  Numbering faces(4 * core_faces.size());
   for (const Index f : core_faces) faces.find_or_add(f);
   const Growth growth = march_from(mesh, faces, reach);
 
@@ -183,10 +180,15 @@ Patch grow(const NodeMesh& mesh, const std::vector<Index>& core_faces, const Rea
   halo.erase(std::unique(halo.begin(), halo.end()), halo.end());
   for (const Index f : halo)  // ascending, so that bridges come last
     if (faces.find(f) == kNone && within(growth, mesh, f, reach.at(mesh, f))) faces.find_or_add(f);
+  return faces;
+}
 
+// The faces, of which so many are the core, as a complex of their own.
+Patch cut_out(const NodeMesh& mesh, const Numbering& faces, Index core_faces) {
+  Numbering nodes(std::size_t{4} * core_faces);
   Patch patch;
   patch.faces = faces.keys();
-  patch.core_faces = Index(core_faces.size());
+  patch.core_faces = core_faces;
   patch.corners.reserve(patch.faces.size());
   patch.lengths.reserve(patch.faces.size());
   for (Index i = 0; i < patch.faces.size(); ++i) {
@@ -214,6 +216,10 @@ Patch grow(const NodeMesh& mesh, const std::vector<Index>& core_faces, const Rea
   return patch;
 }
 
+Patch grow(const NodeMesh& mesh, const std::vector<Index>& core_faces, const Reach& reach) {
+  return cut_out(mesh, faces_within(mesh, core_faces, reach), Index(core_faces.size()));
+}
+
 }  // namespace
 
 Patch grow_patch(const NodeMesh& mesh, const std::vector<Index>& core_faces, double reach) {
@@ -233,74 +239,6 @@ Patch grow_patch(const NodeMesh& mesh, const std::vector<Index>& core_faces, dou
   patch.extents.reserve(patch.nodes.size());
   for (const Index n : patch.nodes) patch.extents.push_back(extents[n]);
   return patch;
-}
-
-std::vector<double> edge_extents(const NodeMesh& mesh) {
-  constexpr double kSlope = 1.0 / 7;
-  std::vector<double> extents(mesh.nodes.size(), 0);
-  for (Index f = 0; f < mesh.faces.size(); ++f) {
-    const auto& l = mesh.lengths[f];
-    const double longest = std::max({l[0], l[1], l[2]});
-    for (const Index n : mesh.faces[f]) extents[n] = std::max(extents[n], longest);
-  }
-  // Nodes that raise a neighbour, the highest first.
-  std::priority_queue<std::pair<double, Index>> queue;
-  const auto raise_around = [&](Index n) {
-    for (Index at = mesh.node_offsets[n]; at < mesh.node_offsets[n + 1]; ++at) {
-      const Index f = mesh.node_faces[at];
-      for (int k = 0; k < 3; ++k) {
-        const Index a = mesh.faces[f][k], b = mesh.faces[f][(k + 1) % 3];
-        if (a != n && b != n) continue;
-        const Index to = a == n ? b : a;
-        const double there = extents[n] - kSlope * mesh.lengths[f][k];
-        if (!(there > extents[to] * (1 + 1e-6))) continue;
-        extents[to] = there;
-        queue.emplace(there, to);
-      }
-    }
-  };
-  for (Index n = 0; n < extents.size(); ++n) raise_around(n);
-  while (!queue.empty()) {
-    const auto [extent, n] = queue.top();
-    queue.pop();
-    if (extent == extents[n]) raise_around(n);
-  }
-  return extents;
-}
-
-std::vector<std::array<Index, 3>> number_edges(const Patch& patch, Index& count) {
-  const Index faces = Index(patch.corners.size());
-  std::vector<std::array<Index, 3>> number(faces, {kNone, kNone, kNone});
-  struct Side {
-    Index low, high;
-    double length;
-    Index half_edge;
-  };
-  std::vector<Side> sides;
-  count = 0;
-  for (Index f = 0; f < faces; ++f)
-    for (Index k = 0; k < 3; ++k) {
-      if (number[f][k] != kNone) continue;
-      const Index across = patch.neighbours.empty() ? kNone : patch.neighbours[f][k];
-      if (across != kNone) {
-        number[f][k] = number[across / 3][across % 3] = count++;
-        continue;
-      }
-      const auto [low, high] = std::minmax(patch.corners[f][k], patch.corners[f][(k + 1) % 3]);
-      sides.push_back({low, high, patch.lengths[f][k], 3 * f + k});
-    }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.length, a.half_edge) <
-           std::tie(b.low, b.high, b.length, b.half_edge);
-  });
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const bool same = i > 0 && sides[i].low == sides[i - 1].low &&
-                      sides[i].high == sides[i - 1].high &&
-                      sides[i].length - sides[i - 1].length <= 1e-9 * sides[i].length;
-    if (!same) ++count;
-    number[sides[i].half_edge / 3][sides[i].half_edge % 3] = count - 1;
-  }
-  return number;
 }
 
 }  // namespace onmesh

@@ -1,0 +1,224 @@
+#include "onmesh/nodes/make_overlay.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace onmesh {
+namespace {
+
+using Corners = std::array<Vec2, 3>;
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+struct Circle {
+  Vec2 centre;
+  double radius;
+};
+
+Circle incircle(const Corners& at) {
+  const double a = (at[2] - at[1]).norm(), b = (at[0] - at[2]).norm(), c = (at[1] - at[0]).norm();
+  const double perimeter = a + b + c;
+  return {(a * at[0] + b * at[1] + c * at[2]) / perimeter,
+          std::abs(cross(at[1] - at[0], at[2] - at[0])) / perimeter + 1e-7 * perimeter};
+}
+
+// Lays out the intrinsic faces over one input face after the other.
+class Layouter {
+ public:
+  explicit Layouter(const IntrinsicTriangulation& triangulation)
+      : t_(triangulation), newest_(triangulation.edges().face_count(), Seen{kNone, kNone}) {}
+
+  void lay_out(Index face, std::vector<OverlayPiece>& pieces) {
+    face_ = face;
+    input_ = t_.input().layout(face);
+    placed_.clear();
+    margin_ = 1e-8 * smallest_altitude();
+    start();
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+      for (Index k = 0; k < 3; ++k) cross_edge(i, k);
+    }
+    for (const Placed& p : placed_) {
+      const double twice_area = cross(p.at[1] - p.at[0], p.at[2] - p.at[0]);
+      if (!(twice_area > 0)) continue;
+      OverlayPiece piece{p.face, {}};
+      for (int c = 0; c < 3; ++c) {
+        const Vec2& x = input_[static_cast<std::size_t>(c)];
+        piece.to_node.col(c) =
+            Vec3(cross(p.at[1] - x, p.at[2] - x), cross(p.at[2] - x, p.at[0] - x),
+                 cross(p.at[0] - x, p.at[1] - x)) /
+            twice_area;
+      }
+      pieces.push_back(piece);
+    }
+  }
+
+ private:
+  struct Placed {
+    Index face;
+    Corners at;
+    Index older;  // the same face's previous placement here
+  };
+  struct Seen {
+    Index input_face, placed;
+  };
+
+  double smallest_altitude() const {
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      longest = std::max(longest, (input_[(k + 1) % 3] - input_[k]).norm());
+    return cross(input_[1] - input_[0], input_[2] - input_[0]) / longest;
+  }
+
+  // The intrinsic face at the input face's corner 0 that holds the middle of the corner's wedge.
+  void start() {
+    const HalfEdges& e = t_.edges();
+    const Index corner = 3 * face_, v = t_.input().edges().tail[corner];
+    const double from = t_.input().direction(corner),
+                 middle = from + 0.5 * t_.input().edges().corner_angle(corner);
+    const double total = t_.total_angle(v);
+    const bool closed = !t_.on_boundary(v);
+    const Index first = t_.outgoing(v);
+    Index best = first;
+    double least = 1e300;
+    for (Index h = first;;) {
+      double behind = middle - t_.direction(h);
+      if (closed && behind < 0) behind += total;
+      if (behind >= 0 && behind < least) {
+        least = behind;
+        best = h;
+      }
+      h = e.rotate(h);
+      if (h == kNone || h == first) break;
+    }
+    const double turn = middle - least - from;
+    const Vec2 tip = input_[0] + e.length[best] * Vec2(std::cos(turn), std::sin(turn));
+    Placed p{HalfEdges::face(best), {}, kNone};
+    const Index k = best % 3;
+    p.at[k] = input_[0];
+    p.at[(k + 1) % 3] = anchored(e.tip(best), tip, e.length[best]);
+    p.at[(k + 2) % 3] =
+        anchored(e.tail[HalfEdges::prev(best)], e.opposite(best, p.at[k], p.at[(k + 1) % 3]),
+                 e.length[HalfEdges::prev(best)]);
+    place(p);
+  }
+
+  // A laid-out node that lies in this input face is put where it is known to be, so that rounding
+  // does not add up from face to face. A node laid out inside the input face is the one that lies
+  // there: both faces are convex, so the way to it leads through neither's outside.
+  Vec2 anchored(Index node, const Vec2& laid_out, double scale) const {
+    std::optional<Vec2> known;
+    if (node < t_.input().vertex_count()) {
+      for (Index k = 0; k < 3; ++k) {
+        if (t_.input().edges().tail[3 * face_ + k] != node) continue;
+        if (!known || (input_[k] - laid_out).norm() < (*known - laid_out).norm()) known = input_[k];
+      }
+    } else if (const SurfacePoint& p = t_.location(node); p.face == face_) {
+      known = input_[0] * p.barycentric[0] + input_[1] * p.barycentric[1] +
+              input_[2] * p.barycentric[2];
+    }
+    if (!known) return laid_out;
+    const double off = (*known - laid_out).norm();
+    return off < 1e-6 * scale || off < std::min(depth(laid_out), 0.1 * scale) ? *known : laid_out;
+  }
+
+  // How far inside the input face a point lies; negative outside.
+  double depth(const Vec2& x) const {
+    double least = 1e300;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 side = input_[(k + 1) % 3] - input_[k];
+      least = std::min(least, cross(side, x - input_[k]) / side.norm());
+    }
+    return least;
+  }
+
+  void place(Placed p) {
+    Seen& seen = newest_[p.face];
+    if (seen.input_face == face_) {
+      // Two placements side by side have their incircles apart; flat faces, whose incircle is all
+      // rounding, count as one.
+      const Circle circle = incircle(p.at);
+      int copies = 0;
+      for (Index i = seen.placed; i != kNone; i = placed_[i].older) {
+        // A Delaunay face winds around an input face a few times at most; more is rounding going
+        // round and round the tip of a needle.
+        if (++copies == 64) return;
+        if ((incircle(placed_[i].at).centre - circle.centre).norm() <= circle.radius) return;
+      }
+      p.older = seen.placed;
+    }
+    seen = {face_, static_cast<Index>(placed_.size())};
+    placed_.push_back(p);
+  }
+
+  // Go on over edge k of a placed face if a piece of it runs through the inside of the input face.
+  void cross_edge(std::size_t placed, Index k) {
+    const HalfEdges& e = t_.edges();
+    const Index twin = e.twin[3 * placed_[placed].face + k];
+    if (twin == kNone) return;
+    const Vec2 a = placed_[placed].at[k], b = placed_[placed].at[(k + 1) % 3];
+    double enter = 0,
+           leave = 1;  // the part of a + t (b - a) inside, at least `margin_` from each side
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 side = input_[(i + 1) % 3] - input_[i];
+      const double length = side.norm();
+      const double at_a = cross(side, a - input_[i]) / length - margin_,
+                   at_b = cross(side, b - input_[i]) / length - margin_;
+      if (at_a <= 0 && at_b <= 0) return;
+      if (at_a < 0) enter = std::max(enter, at_a / (at_a - at_b));
+      if (at_b < 0) leave = std::min(leave, at_a / (at_a - at_b));
+    }
+    if (!(enter < leave)) return;
+    Placed p{HalfEdges::face(twin), {}, kNone};
+    const Index j = twin % 3;
+    p.at[j] = b;
+    p.at[(j + 1) % 3] = a;
+    p.at[(j + 2) % 3] =
+        anchored(e.tail[HalfEdges::prev(twin)], e.opposite(twin, b, a), e.length[twin]);
+    place(p);
+  }
+
+  const IntrinsicTriangulation& t_;
+  std::vector<Seen> newest_;  // per intrinsic face
+  std::vector<Placed> placed_;
+  Index face_ = 0;
+  Corners input_;
+  double margin_ = 0;
+};
+
+}  // namespace
+
+Overlay make_overlay(const IntrinsicTriangulation& triangulation) {
+  const Index faces = triangulation.input().edges().face_count();
+  const Index least_pieces = std::max(faces, triangulation.edges().face_count());
+  const Index blocks = std::clamp<Index>(least_pieces / 4096, 1, std::clamp<Index>(faces, 1, 64)),
+              size = (faces + blocks - 1) / blocks;
+  // One for every thread, because each keeps marks for all intrinsic faces.
+  tbb::enumerable_thread_specific<Layouter> layouters([&] { return Layouter(triangulation); });
+  std::vector<std::vector<OverlayPiece>> pieces(blocks);
+  std::vector<Index> counts(faces, 0);
+  tbb::parallel_for(Index{0}, blocks, [&](Index block) {
+    Layouter& layouter = layouters.local();
+    for (Index f = block * size; f < std::min(faces, (block + 1) * size); ++f) {
+      const std::size_t before = pieces[block].size();
+      layouter.lay_out(f, pieces[block]);
+      counts[f] = static_cast<Index>(pieces[block].size() - before);
+    }
+  });
+  Overlay overlay;
+  overlay.face_offsets.assign(faces + 1, 0);
+  for (Index f = 0; f < faces; ++f)
+    overlay.face_offsets[f + 1] = overlay.face_offsets[f] + counts[f];
+  overlay.pieces.reserve(overlay.face_offsets[faces]);
+  for (auto& block : pieces) {
+    overlay.pieces.insert(overlay.pieces.end(), block.begin(), block.end());
+    block = {};
+  }
+  return overlay;
+}
+
+}  // namespace onmesh

@@ -1,0 +1,15 @@
+// The currency between refinement and what runs on it: nodes with their place on the input.
+#pragma once
+
+#include "onmesh/nodes/node_mesh.h"
+#include "onmesh/nodes/overlay.h"
+
+namespace onmesh {
+
+/// A node mesh made from an input mesh, with the way from one to the other.
+struct NodeSurface {
+  NodeMesh nodes;
+  Overlay overlay;
+};
+
+}  // namespace onmesh
