@@ -10,6 +10,9 @@
 #include <cmath>
 #include <mutex>
 
+#include "onmesh/kernel/cost_model.h"
+#include "onmesh/kernel/radius.h"
+
 namespace onmesh {
 namespace {
 
@@ -38,13 +41,12 @@ std::vector<double> extents_for(const PatchWork& work) {
 }
 
 /// Whether it is worth evaluating on nodes. Direct sums that take no time to speak of are better.
-bool choose_nodes(const PatchWork& work, const CheckedKernel::Size& size) {
+bool choose_nodes(const PatchWork& work, const WorkSize& size) {
   if (work.method != FilterMethod::automatic) return work.method == FilterMethod::nodes;
   constexpr double kNoTime = 1e9;
-  if (CheckedKernel::subnode_spacing(size, work.kernel) > work.kernel.sigma_spatial) return false;
-  const double sums = CheckedKernel::cost_of_sums(size, work.kernel);
-  return sums > kNoTime &&
-         CheckedKernel::cost_of_nodes(size, work.kernel, work.colours.channels) < 0.5 * sums;
+  if (subnode_spacing(size, work.kernel) > work.kernel.sigma_spatial) return false;
+  const double sums = cost_of_sums(size, work.kernel);
+  return sums > kNoTime && cost_of_nodes(size, work.kernel, work.colours.channels) < 0.5 * sums;
 }
 
 class PatchFilter {
@@ -102,7 +104,7 @@ class PatchFilter {
 
  private:
   Patch grow(const std::vector<Index>& core, double& reach) const {
-    const double radius = work_.kernel.radius * std::sqrt(1 + 1e-5);
+    const double radius = largest_distance(work_.kernel.radius);
     if (!extents_.empty()) {
       reach = radius;
       return grow_patch(*work_.nodes, core, radius, extents_);
@@ -152,7 +154,7 @@ PatchCounts filter_patches(const PatchWork& work, const StoreResults& store,
   const NodeMesh& nodes = *work.nodes;
   std::vector<double> weights(nodes.faces.size());
   std::vector<bool> is_needed(nodes.nodes.size(), false);
-  CheckedKernel::Size size;
+  WorkSize size;
   size.samples = double(work.sources->samples.size());
   size.targets = double(work.targets->samples.size());
   for (Index f = 0; f < weights.size(); ++f) {

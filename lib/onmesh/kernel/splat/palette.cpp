@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "onmesh/base/simd_targets.h"
+
 namespace onmesh {
 namespace {
 
@@ -78,7 +80,7 @@ Palette make_palette(const float* colours, std::size_t count, std::size_t stride
 
   Palette palette;
   palette.size = std::size_t(k_count);
-  palette.padded = (palette.size + Palette::kLanes - 1) / Palette::kLanes * Palette::kLanes;
+  palette.padded = padded_to_lanes(palette.size);
   palette.residual = squared.cast<double>().mean();
   palette.colours.assign(channels * palette.padded, kFarAway);
   for (std::size_t c = 0; c < channels; ++c)
