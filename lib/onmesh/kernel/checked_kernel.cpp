@@ -33,7 +33,6 @@ constexpr double kReachSlack = 1 + 1e-4;
 /// other faces with a point that may be within the radius of one of theirs. Nodes stay the same.
 Patch narrow(const KernelInput& input, const std::vector<Index>& core, double radius) {
   const Patch& whole = *input.patch;
-  const DistanceTable& table = *input.table;
   Patch part;
   part.nodes = whole.nodes;
   part.core_nodes = whole.core_nodes;
@@ -51,12 +50,7 @@ Patch narrow(const KernelInput& input, const std::vector<Index>& core, double ra
     is_core[f] = 1;
     for (const Index n : whole.corners[f]) is_corner[n] = 1;
   }
-  std::vector<float> nearest(table.columns, kUnreachable);
-  for (Index corner = 0; corner < whole.core_nodes; ++corner) {
-    if (!is_corner[corner]) continue;
-    const float* const row = table.row(corner);
-    for (Index n = 0; n < table.columns; ++n) nearest[n] = std::min(nearest[n], row[n]);
-  }
+  const std::vector<float> nearest = nearest_squared(*input.table, is_corner);
   // d^2 = sum_ij a_i b_j D_ij - V(x) - V(y), derived in lib/README.md, is at least the smallest
   // entry less both variances, which are at most a third of the longest edge's square.
   const double core_variance = part.longest_edge * part.longest_edge / 3;

@@ -52,6 +52,11 @@ struct KernelInput {
   const std::vector<unsigned char>* only = nullptr;
 };
 
+/// \param is_source per row (or as many as are given): whether it takes part
+/// \return per column the smallest entry of these rows
+std::vector<float> nearest_squared(const DistanceTable& table,
+                                   const std::vector<unsigned char>& is_source);
+
 /// \return per core face the slot of its first target, then the number of all targets
 std::vector<Index> first_slots(const KernelInput& input);
 

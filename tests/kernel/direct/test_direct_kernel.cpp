@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 
 #include "onmesh/kernel/radius.h"
 #include "support/flat_patch.h"
@@ -53,6 +55,23 @@ double psnr(const std::vector<float>& a, const std::vector<double>& b) {
   return 10 * std::log10(double(a.size()) / sum);
 }
 
+/// Filter a flat patch and compare all values and the number of pairs with brute_force().
+KernelCounts check_filter(const FlatPatch& flat, const KernelOptions& options, int range_channels,
+                          double least_psnr) {
+  KernelInput input = flat.input();
+  input.colours.range_channels = range_channels;
+  std::vector<float> out;
+  const KernelCounts counts = filter_patch(input, options, out);
+  const Reference reference = brute_force(flat, options, range_channels);
+  const double found = psnr(out, reference.values);
+  INFO(kernel_target());
+  UNSCOPED_INFO("PSNR " << found << " of " << flat.channels << " channels");
+  CHECK(counts.pairs == reference.pairs);
+  CHECK(counts.without_sample == 0);
+  CHECK(found > least_psnr);
+  return counts;
+}
+
 double reach_for(double radius, double spacing) { return largest_distance(radius) + 2.6 * spacing; }
 
 TEST_CASE("on a flat patch the kernel is the plain 2D bilateral filter", "[kernel]") {
@@ -66,13 +85,7 @@ TEST_CASE("on a flat patch the kernel is the plain 2D bilateral filter", "[kerne
                                           .reach = reach_for(12.5, 6),
                                           .channels = channels,
                                           .seed = 11});
-  const KernelOptions options{5, 12.5, 0.3};
-  std::vector<float> out;
-  const KernelCounts counts = filter_patch(flat.input(), options, out);
-  const Reference reference = brute_force(flat, options, channels);
-  CHECK(counts.pairs == reference.pairs);
-  CHECK(counts.without_sample == 0);
-  CHECK(psnr(out, reference.values) > 110);
+  check_filter(flat, {5, 12.5, 0.3}, channels, 110);
 }
 
 TEST_CASE("without sigma_range the kernel is the plain 2D Gaussian filter", "[kernel]") {
@@ -84,12 +97,7 @@ TEST_CASE("without sigma_range the kernel is the plain 2D Gaussian filter", "[ke
                                           .reach = reach_for(15, 6),
                                           .channels = channels,
                                           .seed = 5});
-  const KernelOptions options{5, 15, 0};
-  std::vector<float> out;
-  const KernelCounts counts = filter_patch(flat.input(), options, out);
-  const Reference reference = brute_force(flat, options, 0);
-  CHECK(counts.pairs == reference.pairs);
-  CHECK(psnr(out, reference.values) > 110);
+  check_filter(flat, {5, 15, 0}, channels, 110);
 }
 
 TEST_CASE("ten thousand taps keep 100 dB", "[kernel]") {
@@ -100,25 +108,15 @@ TEST_CASE("ten thousand taps keep 100 dB", "[kernel]") {
                                           .core = 0.1,
                                           .reach = reach_for(57, 14),
                                           .channels = 3});
-  const KernelOptions options{20, 57, sigma_range};
-  std::vector<float> out;
-  const KernelCounts counts = filter_patch(flat.input(), options, out);
-  REQUIRE(counts.pairs > 10'000 * flat.target_texels.size());
-  const double db = psnr(out, brute_force(flat, options, 3).values);
-  UNSCOPED_INFO("dB: " << db);
-  CHECK(db > 100);
+  const KernelCounts counts = check_filter(flat, {20, 57, sigma_range}, 3, 100);
+  CHECK(counts.pairs > 10'000 * flat.target_texels.size());
 }
 
 TEST_CASE("faces with a few samples and vectors over many faces filter alike", "[kernel]") {
   const double spacing = GENERATE(1.1, 2.5);
   const FlatPatch flat = make_flat_patch(
       {.spacing = spacing, .core = 0.3, .reach = reach_for(5, spacing), .channels = 3, .seed = 23});
-  const KernelOptions options{2, 5, 0.2};
-  std::vector<float> out;
-  const KernelCounts counts = filter_patch(flat.input(), options, out);
-  const Reference reference = brute_force(flat, options, 3);
-  CHECK(counts.pairs == reference.pairs);
-  CHECK(psnr(out, reference.values) > 110);
+  check_filter(flat, {2, 5, 0.2}, 3, 110);
 }
 
 TEST_CASE("a core much wider than the radius filters right in any unit of length", "[kernel]") {
@@ -140,12 +138,7 @@ TEST_CASE("a core much wider than the radius filters right in any unit of length
   }
   for (Sample& s : flat.samples.samples) s.area *= static_cast<float>(unit * unit);
   for (Vec2& p : flat.positions) p *= unit;
-  const KernelOptions options{unit, 3 * unit, GENERATE(0.0, 0.2)};
-  std::vector<float> out;
-  const KernelCounts counts = filter_patch(flat.input(), options, out);
-  const Reference reference = brute_force(flat, options, 3);
-  CHECK(counts.pairs == reference.pairs);
-  CHECK(psnr(out, reference.values) > 110);
+  check_filter(flat, {unit, 3 * unit, GENERATE(0.0, 0.2)}, 3, 110);
 }
 
 TEST_CASE("only range channels take part in the colour difference", "[kernel]") {
@@ -155,12 +148,7 @@ TEST_CASE("only range channels take part in the colour difference", "[kernel]") 
                                           .reach = reach_for(10, 6),
                                           .channels = 4,
                                           .seed = 7});
-  const KernelOptions options{4, 10, 0.2};
-  KernelInput input = flat.input();
-  input.colours.range_channels = 1;
-  std::vector<float> out;
-  filter_patch(input, options, out);
-  CHECK(psnr(out, brute_force(flat, options, 1).values) > 110);
+  check_filter(flat, {4, 10, 0.2}, GENERATE(1, 3), 110);
 }
 
 TEST_CASE("pairs at exactly the radius count", "[kernel]") {
@@ -188,21 +176,17 @@ TEST_CASE("every instruction set agrees", "[kernel]") {
                                           .reach = reach_for(12, 7),
                                           .channels = 3,
                                           .seed = 29});
-  const KernelOptions options{5, 12, 0.15};
-  const Reference reference = brute_force(flat, options, 3);
   const std::int64_t supported = hwy::SupportedTargets();
-  int tried = 0;
+  std::set<std::string> tried;
   for (std::int64_t rest = supported; rest != 0; rest &= rest - 1) {
     hwy::SetSupportedTargetsForTest(rest & -rest);
-    std::vector<float> out;
-    const KernelCounts counts = filter_patch(flat.input(), options, out);
-    INFO(kernel_target());
-    CHECK(counts.pairs == reference.pairs);
-    CHECK(psnr(out, reference.values) > 110);
-    ++tried;
+    tried.insert(kernel_target());
+    check_filter(flat, {5, 12, 0.15}, 3, 110);
   }
   hwy::SetSupportedTargetsForTest(0);
-  CHECK(tried > 0);
+  tried.insert(kernel_target());
+  // The plain one, the best one, and on most processors some between.
+  CHECK(tried.size() >= 2);
 }
 
 TEST_CASE("faces with an unreachable corner pair exchange nothing", "[kernel]") {

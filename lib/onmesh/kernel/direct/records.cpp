@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "onmesh/base/exponent_unit.h"
+#include "onmesh/kernel/direct/record_writer.h"
 #include "onmesh/kernel/direct/target_order.h"
 #include "onmesh/kernel/prefetch-inl.h"
 #include "onmesh/kernel/radius.h"
@@ -13,8 +14,6 @@
 namespace onmesh {
 namespace {
 
-/// Below this log2 of its area relative to the patch's largest a sample counts for nothing.
-constexpr float kNoArea = -120 * kExponentUnit;
 /// Largest square of a scaled colour for which the product term is used, and least exponent of a
 /// sample without its colour: then all exponents are in the range of exp2_of_units(), and exact to
 /// 1e-5.
@@ -33,16 +32,10 @@ float reach_squared(const PatchRecords& records, const std::array<double, 3>& le
 
 /// Which faces of the patch can hold a sample within reach of one of the targets.
 std::vector<unsigned char> find_faces_near(const KernelInput& input, const PatchRecords& records) {
-  const DistanceTable& table = *input.table;
-  std::vector<unsigned char> is_corner(table.rows, 0);
+  std::vector<unsigned char> is_corner(input.patch->core_nodes, 0);
   for (const PatchRecords::Target& target : records.targets)
     for (const Index corner : target.corners) is_corner[corner] = 1;
-  std::vector<float> nearest(table.columns, kUnreachable);
-  for (Index corner = 0; corner < table.rows; ++corner) {
-    if (!is_corner[corner]) continue;
-    const float* const row = table.row(corner);
-    for (Index n = 0; n < table.columns; ++n) nearest[n] = std::min(nearest[n], row[n]);
-  }
+  const std::vector<float> nearest = nearest_squared(*input.table, is_corner);
   std::vector<unsigned char> is_near(input.patch->corners.size());
   for (std::size_t f = 0; f < is_near.size(); ++f) {
     const auto& n = input.patch->corners[f];
@@ -79,87 +72,10 @@ void make_room(std::size_t samples, PatchRecords& records) {
     if (array->size() < samples + kLanes) array->resize(samples + kLanes);
 }
 
-/// Of all samples gathered: the largest square of a scaled colour and the least log2 of an area.
-struct Extremes {
-  float square = 0, log_area = 0;
-};
-
-/// Writes records, one after the other. kChannels: how many there are, or 0 for any number.
-template <int kChannels>
-class RecordWriter {
- public:
-  /// \pre make_room() for all
-  RecordWriter(const Colours& colours, float largest_area, PatchRecords& records)
-      : colours_(colours),
-        records_(records),
-        channels_(kChannels > 0 ? kChannels : records.channels),
-        stride_(records.stride()),
-        limit_(records.limit),
-        colour_scale_(records.colour_scale),
-        usable_scale_(records.usable_scale),
-        reference_(records.reference.data()),
-        inverse_area_(1 / largest_area),
-        record_(records.records.data()) {
-    if (!std::isfinite(inverse_area_)) inverse_area_ = 0;  // areas too small to be compared
-  }
-
-  /// Write a sample unless it can have no weight.
-  /// \param squared the face's squared lengths, scaled
-  /// \return its variance; 0 if it was left out
-  float add(const Sample& s, const std::array<float, 3>& squared, std::uint32_t face) {
-    const float* const colour = colours_.of(s.texel);
-    if (s.area != last_area_) {
-      last_area_ = s.area;
-      // -inf or NaN where there is no area
-      log_area_ = std::log2(s.area * inverse_area_) * kExponentUnit;
-    }
-    if (!(log_area_ > kNoArea) || !is_usable(colour, channels_, usable_scale_)) return 0;
-    const float b0 = 1 - s.b1 - s.b2;
-    const float variance =
-        b0 * s.b1 * squared[0] + s.b1 * s.b2 * squared[1] + s.b2 * b0 * squared[2];
-    record_[RecordField::b1] = s.b1;
-    record_[RecordField::b2] = s.b2;
-    record_[RecordField::exponent] = variance + log_area_;
-    record_[RecordField::least] = limit_ - variance;
-    set_face(record_, face);
-    float square = 0;
-    for (int c = 0; c < channels_; ++c) {
-      const float y = (colour[c] - reference_[c]) * colour_scale_;
-      record_[RecordField::colour + std::size_t(c)] = y;
-      square += y * y;
-    }
-    records_.b1[count_] = s.b1;
-    records_.b2[count_] = s.b2;
-    records_.variance[count_] = variance;
-    extremes_.square = std::max(extremes_.square, square);
-    extremes_.log_area = std::min(extremes_.log_area, log_area_);
-    record_ += stride_;
-    ++count_;
-    return variance;
-  }
-
-  std::size_t count() const { return count_; }
-  const Extremes& extremes() const { return extremes_; }
-
- private:
-  const Colours& colours_;
-  PatchRecords& records_;
-  const int channels_;
-  const std::size_t stride_;
-  // As the records have them.
-  const float limit_, colour_scale_, usable_scale_;
-  const float* const reference_;
-  float inverse_area_;  ///< 1 / the largest
-  float* record_;
-  std::size_t count_ = 0;
-  float last_area_ = -1, log_area_ = 0;  ///< most neighbours stand for the same area
-  Extremes extremes_;
-};
-
 /// The records of the faces marked.
 template <int kChannels>
-Extremes gather_samples(const KernelInput& input, double variance_scale,
-                        const std::vector<unsigned char>& is_needed, PatchRecords& records) {
+RecordExtremes gather_samples(const KernelInput& input, double variance_scale,
+                              const std::vector<unsigned char>& is_needed, PatchRecords& records) {
   const Patch& patch = *input.patch;
   const Samples& sources = *input.sources;
   const Total total = count_samples(patch, sources, is_needed);
@@ -187,7 +103,7 @@ Extremes gather_samples(const KernelInput& input, double variance_scale,
 }
 
 /// Choose how colours come into the weights, and prepare records and targets for it.
-void settle_range_term(const Extremes& extremes, PatchRecords& records) {
+void settle_range_term(const RecordExtremes& extremes, PatchRecords& records) {
   if (records.range_channels == 0) {
     records.range_term = RangeTerm::none;
     return;

@@ -80,7 +80,8 @@ class TargetBlock {
   /// List the samples that targets may have within the radius, over all faces, so that they can be
   /// summed in long loops: short ones cost more in mispredicted branches than in sums.
   void list_hits();
-  /// Sum over the samples listed. \return number of pairs within the radius
+  /// Sum over the samples listed.
+  /// \return number of pairs within the radius
   template <int kChannels, RangeTerm kRange>
   std::uint64_t sum_hits();
 

@@ -116,9 +116,9 @@ class ChunkLoop {
   explicit ChunkLoop(const NodeKernelState& state) : s_(state) {}
 
   /// Call for every chunk of the samples of a face: call(chunk, part, samples, numbers) with the
-  /// part of the face that all of them are in, the face's first sample and their numbers from
-  /// there. \param local_face of the patch, before it is halved \param is_wanted whether the
-  /// samples are, by the corners of their part
+  /// part of the face that all of them are in, the face's first sample, and their numbers from it.
+  /// \param local_face of the patch, before it is halved
+  /// \param is_wanted whether the samples of a part are, by its corners
   template <typename IsWanted, typename Call>
   void run(const Samples& samples, Index local_face, const IsWanted& is_wanted, const Call& call) {
     const Index f = s_.input.patch->faces[local_face];
