@@ -13,8 +13,13 @@ void bench_kernel(benchmark::State& state) {
   const double radius = sigma * (bilateral ? 2.5 : 3);
   const double spacing = std::sqrt(double(state.range(1)) / std::sqrt(3.0 / 16));
   const double side = 2 * radius + 2 * (radius + spacing);
-  const FlatPatch flat = make_flat_patch(int(side), int(side), 1, spacing, 2 * radius / side,
-                                         radius + 2.5 * spacing, int(state.range(2)), 1);
+  const FlatPatch flat = make_flat_patch({.width = int(side),
+                                          .height = int(side),
+                                          .spacing = spacing,
+                                          .core = 2 * radius / side,
+                                          .reach = radius + 2.5 * spacing,
+                                          .channels = int(state.range(2)),
+                                          .seed = 1});
   const KernelOptions options{sigma, radius, bilateral ? 0.1 : 0.0};
   std::vector<float> out;
   std::uint64_t pairs = 0;

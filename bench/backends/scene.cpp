@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "onmesh/base/error.h"
+#include "onmesh/kernel/radius.h"
 #include "onmesh/measure/mesh_report.h"
 #include "onmesh/measure/nearby_geodesics.h"
 #include "onmesh/mesh_io/read_mesh.h"
@@ -130,7 +131,7 @@ Scene make_scene(const Subject& subject, double sigma_texels, std::size_t texels
 
   scene.truth_on = subject.truth;
   const double radius = scene.weights(FilterKind::gaussian).radius;
-  const Distances distances = scene.truth(radius * (1 + 1e-5));
+  const Distances distances = scene.truth(radius * kRadiusSlack);
   scene.tried.resize(centres.size());
   tbb::parallel_for(std::size_t(0), centres.size(), [&](std::size_t i) {
     scene.tried[i] = neighbourhood(scene.points, centres[i], radius, distances);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "onmesh/base/error.h"
+#include "onmesh/kernel/radius.h"
 #include "onmesh/procedural/shapes.h"
 #include "onmesh/procedural/texture.h"
 #include "support/recut_atlas.h"
@@ -73,7 +74,7 @@ double against_brute_force(const TriangleMesh& mesh, const Image& texture, const
     double weights = 0;
     for (const Point& y : points) {
       const double d2 = (y.at - points[x].at).squaredNorm();
-      if (d2 > radius * radius * (1 + 1e-5)) continue;
+      if (d2 > largest_squared(radius)) continue;
       const float* const colour = texture.texel(y.texel);
       double c2 = 0;
       for (int c = 0; c < texture.channels; ++c) c2 += std::pow(double(colour[c]) - own[c], 2);

@@ -1,14 +1,12 @@
-// The evaluation on nodes: subnodes, palettes, and the filter against its direct sums.
+// The evaluation on nodes, against the direct sums.
+#include "onmesh/kernel/checked_kernel.h"
+
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 
 #include "onmesh/filter/filter.h"
-#include "onmesh/kernel/splat/palette.h"
-#include "onmesh/kernel/splat/subnodes.h"
 #include "onmesh/procedural/shapes.h"
 #include "onmesh/procedural/texture.h"
-#include "support/flat_patch.h"
 
 using namespace onmesh;
 
@@ -52,98 +50,6 @@ Difference by_nodes(const TriangleMesh& mesh, const Image& texture, FilterKind k
 }
 
 }  // namespace
-
-TEST_CASE("subnodes are as far apart as the points that they are", "[nodes]") {
-  // On a flat patch every subnode has a place, and distances are straight lines.
-  const FlatPatch flat = make_flat_patch(40, 40, 1, 5, 0.5, 1e3, 1, 3);
-  const Subnodes subnodes = make_subnodes(flat.patch, 0);
-  const double sigma = 6, radius = 15;
-  const BlurWeights blur = make_blur(flat.patch, flat.table, subnodes, sigma, radius);
-  REQUIRE(blur.offsets.size() == subnodes.core.size() + 1);
-  for (std::size_t i = 0; i < subnodes.core.size(); i += 7) {
-    std::size_t expected = 0;
-    const auto squared = [&](Index a, Index b) {  // by its own formula, over the four ends
-      double sum = 0;
-      for (const Index m : subnodes.ends[a])
-        for (const Index n : subnodes.ends[b]) sum += 0.25 * double(flat.table.row(m)[n]);
-      return sum - 0.25 * double(subnodes.squared_length[a]) -
-             0.25 * double(subnodes.squared_length[b]);
-    };
-    const Index own = subnodes.core[i];
-    if (subnodes.ends[own][1] >= flat.table.rows) continue;
-    for (Index j = 0; j < subnodes.size(); ++j)
-      expected += squared(own, j) <= radius * radius * (1 + 1e-5);
-    CHECK(blur.offsets[i + 1] - blur.offsets[i] == expected);
-    for (std::size_t k = blur.offsets[i]; k < blur.offsets[i + 1]; ++k) {
-      const Index j = blur.subnodes[k];
-      const double v = 0.5 * (double(subnodes.variance[own]) + subnodes.variance[j]);
-      const double exponent = -std::max(squared(own, j), 0.0) / (2 * (sigma * sigma - v));
-      CHECK(blur.exponents[k] * std::log(2.0) == Approx(exponent).margin(1e-4));
-    }
-  }
-}
-
-TEST_CASE("edges too short to split have no subnode of their own", "[nodes]") {
-  const FlatPatch flat = make_flat_patch(40, 40, 1, 5, 0.5, 1e3, 1, 3);
-  const Subnodes all = make_subnodes(flat.patch, 0), none = make_subnodes(flat.patch, 100);
-  const auto real = [](const Subnodes& s) {
-    return std::size_t(std::count(s.is_real.begin(), s.is_real.end(), 1));
-  };
-  CHECK(real(all) == all.size());
-  CHECK(real(none) == flat.patch.nodes.size());
-  CHECK(none.core.size() == flat.patch.core_nodes);
-  // The mean barycentric variance of a quarter is a quarter of the face's.
-  for (Index n = 0; n < flat.patch.nodes.size(); ++n)
-    CHECK(all.variance[n] == Approx(none.variance[n] / 4));
-}
-
-TEST_CASE("the palette's range kernel is right where its colours are", "[nodes]") {
-  std::mt19937_64 random(5);
-  const auto uniform = [&random] { return float(double(random() >> 11) * 0x1p-53); };
-  std::vector<float> colours(3 * 900);
-  for (float& c : colours) c = 2 * uniform();
-  const auto kernel = [](const float* a, const float* b) {
-    double squared = 0;
-    for (int c = 0; c < 3; ++c) squared += std::pow(double(a[c]) - b[c], 2);
-    return std::exp2(-squared);
-  };
-  double last = 1;
-  for (const std::size_t size : {16, 32, 64}) {
-    const Palette p = make_palette(colours.data(), 900, 3, 3, size);
-    REQUIRE(p.size == size);
-    double squares = 0;
-    int count = 0;
-    for (std::size_t i = 0; i < 900; i += 30) {
-      for (std::size_t j = 7; j < 900; j += 30, ++count) {
-        double value = 0;
-        for (std::size_t k = 0; k < size; ++k) {
-          for (std::size_t l = 0; l < size; ++l) {
-            std::array<float, 3> ck, cl;
-            for (std::size_t c = 0; c < 3; ++c) {
-              ck[c] = p.colours[c * p.padded + k];
-              cl[c] = p.colours[c * p.padded + l];
-            }
-            value += kernel(&colours[3 * i], ck.data()) * double(p.inverse[k * p.padded + l]) *
-                     kernel(&colours[3 * j], cl.data());
-          }
-        }
-        squares += std::pow(value - kernel(&colours[3 * i], &colours[3 * j]), 2);
-      }
-    }
-    const double rms = std::sqrt(squares / count);
-    CHECK(rms < last / 1.5);
-    last = rms;
-  }
-  CHECK(last < 0.01);
-}
-
-TEST_CASE("a palette has no more colours than there are", "[nodes]") {
-  std::vector<float> colours;
-  for (int i = 0; i < 300; ++i) colours.push_back(float(i % 3));
-  const Palette p = make_palette(colours.data(), 300, 1, 1, 16);
-  CHECK(p.size == 3);
-  CHECK(p.residual == Approx(0).margin(1e-9));
-}
 
 TEST_CASE("by nodes the Gaussian filter is close to its direct sums", "[nodes][filter]") {
   const Image texture = make_texture(256, 256, Pattern::checker, 0.2, 1);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "onmesh/filter/filter.h"
+#include "onmesh/kernel/radius.h"
 
 namespace onmesh {
 
@@ -51,7 +52,7 @@ inline Neighbourhood neighbourhood(const TexelPoints& all, std::size_t centre, d
   std::vector<SurfacePoint> targets;
   for (std::size_t y = 0; y < all.points.size(); ++y) {
     // Geodesics are not shorter than the straight line.
-    if ((all.positions[y] - all.positions[centre]).norm() > radius * (1 + 1e-5)) continue;
+    if ((all.positions[y] - all.positions[centre]).norm() > radius * kRadiusSlack) continue;
     out.near.push_back(y);
     targets.push_back(all.points[y]);
   }
@@ -74,7 +75,7 @@ inline std::vector<double> filtered_value(const TexelPoints& all, const Neighbou
   double total = 0;
   for (std::size_t k = 0; k < around.near.size(); ++k) {
     const double squared = around.distances[k] * around.distances[k];
-    if (!(squared <= weights.radius * weights.radius * (1 + 1e-5))) continue;
+    if (!(squared <= largest_squared(weights.radius))) continue;
     const float* colour = texture.texel(all.texels[around.near[k]]);
     double exponent = squared / (2 * weights.sigma * weights.sigma);
     if (weights.kind == FilterKind::bilateral) {

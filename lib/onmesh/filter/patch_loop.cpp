@@ -1,7 +1,4 @@
 #include "onmesh/filter/patch_loop.h"
-#include "onmesh/patches/edge_extents.h"
-#include "onmesh/patches/grow_patch.h"
-#include "onmesh/patches/partition.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -12,6 +9,12 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+
+#include "onmesh/kernel/cost_model.h"
+#include "onmesh/kernel/radius.h"
+#include "onmesh/patches/edge_extents.h"
+#include "onmesh/patches/grow_patch.h"
+#include "onmesh/patches/partition.h"
 
 namespace onmesh {
 namespace {
@@ -28,8 +31,8 @@ double thread_seconds() {
 /// How many targets the node faces have.
 struct TargetCounts {
   std::vector<double> of_face;
-  Index last_face = kNone;   ///< the last one that has any
-  CheckedKernel::Size size;  ///< of the faces that have any
+  Index last_face = kNone;  ///< the last one that has any
+  WorkSize size;            ///< of the faces that have any
 };
 
 TargetCounts count_targets(const PatchWork& work) {
@@ -66,13 +69,12 @@ std::vector<double> extents_for(const PatchWork& work) {
 }
 
 /// Whether it is worth evaluating on nodes. Direct sums that take no time to speak of are better.
-bool choose_nodes(const PatchWork& work, const CheckedKernel::Size& size) {
+bool choose_nodes(const PatchWork& work, const WorkSize& size) {
   if (work.method != FilterMethod::automatic) return work.method == FilterMethod::nodes;
   constexpr double kNoTime = 1e9;
-  if (CheckedKernel::subnode_spacing(size, work.kernel) > work.kernel.sigma_spatial) return false;
-  const double sums = CheckedKernel::cost_of_sums(size, work.kernel);
-  return sums > kNoTime &&
-         CheckedKernel::cost_of_nodes(size, work.kernel, work.colours.channels) < 0.5 * sums;
+  if (subnode_spacing(size, work.kernel) > work.kernel.sigma_spatial) return false;
+  const double sums = cost_of_sums(size, work.kernel);
+  return sums > kNoTime && cost_of_nodes(size, work.kernel, work.colours.channels) < 0.5 * sums;
 }
 
 class PatchFilter {
@@ -140,7 +142,7 @@ class PatchFilter {
 
   /// \param reach how far the core's distances must be right
   Patch grow(const std::vector<Index>& core, double& reach) const {
-    const double radius = work_.kernel.radius * std::sqrt(1 + 1e-5);
+    const double radius = largest_distance(work_.kernel.radius);
     if (!extents_.empty()) {
       reach = radius;
       return grow_patch(*work_.nodes, core, radius, extents_);
@@ -188,7 +190,7 @@ void PatchCounts::add(const PatchCounts& other) {
 PatchCounts filter_patches(const PatchWork& work, const StoreResults& store,
                            const std::function<void(double)>& progress) {
   const TargetCounts targets = count_targets(work);
-  const CheckedKernel::Size& size = targets.size;
+  const WorkSize& size = targets.size;
   const bool by_nodes = choose_nodes(work, size);
   const double sigma = work.kernel.sigma_spatial;
   const std::vector<std::vector<Index>> cores = partition_faces(

@@ -1,24 +1,20 @@
 #include "onmesh/kernel/checked_kernel.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "onmesh/base/random.h"
+#include "onmesh/kernel/splat/palette.h"
 
 namespace onmesh {
 namespace {
 
-constexpr std::array kPalettes{16, 32, 64};
 /// Mean squared distance to the palette, in its units, beyond which it is not worth trying: few
 /// such patches are within the default tolerance.
 constexpr double kMostResidual = 0.16;
 constexpr Index kPicked = 64;
-/// Area per node of a regular mesh with unit edges.
-constexpr double kEquilateral = 0.866;
 /// So many of the others with the least support are, too, to see whether more should be.
 constexpr std::size_t kLeastSupported = 64;
 /// Support below which targets are summed directly.
@@ -30,11 +26,13 @@ constexpr std::size_t kMostUncertain = 16;
 /// An error of an uncertain target that asks for more direct sums, in tolerances.
 constexpr double kFarOff = 16;
 
+/// Factor of the squared radius within which faces are taken, beyond kRadiusSlack.
+constexpr double kReachSlack = 1 + 1e-4;
+
 /// The part of a patch that some of its core faces need: they become its core, and its halo all
 /// other faces with a point that may be within the radius of one of theirs. Nodes stay the same.
 Patch narrow(const KernelInput& input, const std::vector<Index>& core, double radius) {
   const Patch& whole = *input.patch;
-  const DistanceTable& table = *input.table;
   Patch part;
   part.nodes = whole.nodes;
   part.core_nodes = whole.core_nodes;
@@ -52,21 +50,16 @@ Patch narrow(const KernelInput& input, const std::vector<Index>& core, double ra
     is_core[f] = 1;
     for (const Index n : whole.corners[f]) is_corner[n] = 1;
   }
-  std::vector<float> nearest(table.columns, kUnreachable);
-  for (Index corner = 0; corner < whole.core_nodes; ++corner) {
-    if (!is_corner[corner]) continue;
-    const float* const row = table.row(corner);
-    for (Index n = 0; n < table.columns; ++n) nearest[n] = std::min(nearest[n], row[n]);
-  }
-  // d^2 = sum_ij a_i b_j D_ij - V(x) - V(y) is at least the smallest entry less both variances,
-  // which are at most a third of the longest edge's square.
+  const std::vector<float> nearest = nearest_squared(*input.table, is_corner);
+  // d^2 = sum_ij a_i b_j D_ij - V(x) - V(y), derived in lib/README.md, is at least the smallest
+  // entry less both variances, which are at most a third of the longest edge's square.
   const double core_variance = part.longest_edge * part.longest_edge / 3;
   for (Index f = 0; f < whole.faces.size(); ++f) {
     if (is_core[f]) continue;
     const auto& n = whole.corners[f];
     const auto& l = whole.lengths[f];
     const double longest = std::max({l[0], l[1], l[2]});
-    const double reach = radius * radius * (1 + 1e-4) + core_variance + longest * longest / 3;
+    const double reach = radius * radius * kReachSlack + core_variance + longest * longest / 3;
     if (std::min({nearest[n[0]], nearest[n[1]], nearest[n[2]]}) <= reach) add(f);
   }
   return part;
@@ -92,28 +85,23 @@ void CheckedKernel::pick(const KernelInput& input) {
   constexpr std::uint64_t kTries = 8;
   picked_.clear();
   for (std::uint64_t t = 0; t < kTries && !support_.empty(); ++t) {
-    pick_at(input, SplitMix(input.patch->faces[0] + (t << 32)).next());
+    pick_at(SplitMix(input.patch->faces[0] + (t << 32)).next());
     const auto checked = std::count_if(picked_.begin(), picked_.end(),
                                        [&](Index k) { return support_[k] >= kLittleSupport; });
     if (2 * std::size_t(checked) >= picked_.size()) return;
   }
 }
 
-void CheckedKernel::pick_at(const KernelInput& input, std::uint64_t random) {
+void CheckedKernel::pick_at(std::uint64_t random) {
   picked_.clear();
-  const auto slots = Index(support_.size());
-  const auto at = Index(random % slots);
-  Index first = 0, count = 0;
-  for (Index f = 0; first + count <= at; ++f) {
-    const Index face = input.patch->faces[f];
-    first += count;
-    count = input.targets->face_offsets[face + 1] - input.targets->face_offsets[face];
-  }
+  const Index all = slots_.back();
+  const auto next = std::upper_bound(slots_.begin(), slots_.end(), Index(random % all));
+  const Index count = next[0] - next[-1];
   // Targets of one face lie close together on the surface, which makes their direct sums cheap.
   // Small faces have too few; there the next ones are as good.
   const Index step = std::max<Index>(1, count / kPicked);
-  first += Index((random >> 32) % step);
-  for (Index k = first; k < slots && picked_.size() < kPicked; k += step) picked_.push_back(k);
+  const Index first = next[-1] + Index((random >> 32) % step);
+  for (Index k = first; k < all && picked_.size() < kPicked; k += step) picked_.push_back(k);
 }
 
 void CheckedKernel::find_doubtful(std::size_t others) {
@@ -140,18 +128,12 @@ KernelCounts CheckedKernel::sum_directly(const KernelInput& input, DirectKernel&
   // The core faces that hold them, and the number of each one's target there and here.
   std::vector<Index> core, slots;
   only_.clear();
-  Index first = 0;
   for (Index f = 0; f < input.patch->core_faces; ++f) {
-    const Index face = input.patch->faces[f];
-    const Index end =
-        first + input.targets->face_offsets[face + 1] - input.targets->face_offsets[face];
-    const auto begin = is_new.begin();
-    if (std::find(begin + first, begin + end, 1) != begin + end) {
-      core.push_back(f);
-      only_.insert(only_.end(), begin + first, begin + end);
-      for (Index k = first; k < end; ++k) slots.push_back(k);
-    }
-    first = end;
+    const auto begin = is_new.begin() + slots_[f], end = is_new.begin() + slots_[f + 1];
+    if (std::find(begin, end, 1) == end) continue;
+    core.push_back(f);
+    only_.insert(only_.end(), begin, end);
+    for (Index k = slots_[f]; k < slots_[f + 1]; ++k) slots.push_back(k);
   }
   if (core.empty()) return {};
   const Patch patch = narrow(input, core, radius_);
@@ -237,47 +219,26 @@ KernelCounts CheckedKernel::sum_first(const KernelInput& input, DirectKernel& ke
 bool CheckedKernel::run(const KernelInput& input, DirectKernel& kernel, std::vector<float>& out,
                         KernelCounts& counts, NodeCheck& check) {
   if (!nodes_.load(input)) return false;
+  slots_ = first_slots(input);
   check = {};
   std::size_t palette = 0;
-  while (nodes_.choose_palette(kPalettes[palette]) > kMostResidual &&
-         palette + 1 < kPalettes.size()) {
+  while (nodes_.choose_palette(kPaletteSizes[palette]) > kMostResidual &&
+         palette + 1 < kPaletteSizes.size()) {
     ++palette;
   }
   check.colours = nodes_.evaluate(values_, support_);
   counts = sum_first(input, kernel, check);
   while (measure(input, check) > tolerance_) {
-    if (palette + 1 == kPalettes.size() || check.colours < kPalettes[palette]) {
+    if (palette + 1 == kPaletteSizes.size() || check.colours < kPaletteSizes[palette]) {
       if (!always_) return false;
       break;
     }
-    nodes_.choose_palette(kPalettes[++palette]);
+    nodes_.choose_palette(kPaletteSizes[++palette]);
     check.colours = nodes_.evaluate(values_, support_);
   }
   settle_uncertain(input, kernel, counts, check);
   out.swap(values_);
   return true;
-}
-
-double CheckedKernel::subnode_spacing(const Size& size, const KernelOptions& options) {
-  // Nodes are as far apart as the sides of equilateral faces are long.
-  const double spacing = std::sqrt(size.area / (size.nodes * kEquilateral));
-  return NodeKernel::halves(spacing, options.sigma_spatial) ? spacing / 4 : spacing / 2;
-}
-
-double CheckedKernel::cost_of_nodes(const Size& size, const KernelOptions& options, int channels) {
-  // Measured by bench_kernel.
-  const double planes = 1 + channels, colours = options.sigma_range > 0 ? kPalettes[0] : 1;
-  const double disc = std::numbers::pi * options.radius * options.radius;
-  const double spacing = subnode_spacing(size, options);
-  const double subnodes = size.area / (spacing * spacing * kEquilateral);
-  const double pairs = subnodes * std::min(1.0, disc / size.area) * subnodes;
-  return pairs * (4 + 0.02 * planes * colours) +
-         (size.samples + size.targets) * (25 + 0.3 * planes * colours);
-}
-
-double CheckedKernel::cost_of_sums(const Size& size, const KernelOptions& options) {
-  const double disc = std::numbers::pi * options.radius * options.radius;
-  return 0.6 * size.targets * std::min(1.0, disc / size.area) * size.samples;
 }
 
 }  // namespace onmesh

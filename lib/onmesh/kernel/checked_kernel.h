@@ -21,6 +21,7 @@ struct NodeCheck {
   void add(const NodeCheck& other);
 };
 
+/// Filters patches one after the other, keeping its buffers. One object per thread.
 class CheckedKernel {
  public:
   /// \param tolerance of the RMS error, in value units, > 0
@@ -35,25 +36,17 @@ class CheckedKernel {
   /// few texels) are summed directly; of the others, the 64 with the least (if it is little at all)
   /// are checked too, and if one is far off, more are summed directly.
   /// \param kernel does the direct sums
+  /// \param out as DirectKernel::run()
+  /// \param counts of the direct sums
   /// \return false if the patch is to be summed directly instead: its nodes are too coarse, or the
   ///   tolerance is not met
   bool run(const KernelInput& input, DirectKernel& kernel, std::vector<float>& out,
            KernelCounts& counts, NodeCheck& check);
 
-  /// Rough cost of filtering by nodes and directly, in nanoseconds of one core: what decides
-  /// whether it is worth trying.
-  struct Size {
-    double area = 0, nodes = 0, samples = 0, targets = 0;
-  };
-  /// How far apart the node kernel's subnodes are on average.
-  static double subnode_spacing(const Size& size, const KernelOptions& options);
-  static double cost_of_nodes(const Size& size, const KernelOptions& options, int channels);
-  static double cost_of_sums(const Size& size, const KernelOptions& options);
-
  private:
   /// Choose targets at random to measure the error on.
   void pick(const KernelInput& input);
-  void pick_at(const KernelInput& input, std::uint64_t random);
+  void pick_at(std::uint64_t random);
   /// All targets with little support, then so many of the others, the least supported first.
   void find_doubtful(std::size_t others);
   /// Fill sums_ for those of the targets where they are not known yet.
@@ -69,6 +62,7 @@ class CheckedKernel {
   const double radius_;
   const double tolerance_;
   const bool always_;
+  std::vector<Index> slots_;             ///< see first_slots()
   std::vector<float> values_, support_;  ///< of the nodes
   std::vector<float> sums_;              ///< of the direct sum, where it was asked for
   std::vector<unsigned char> is_summed_, only_;

@@ -5,7 +5,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 
+#include "onmesh/kernel/radius.h"
 #include "support/flat_patch.h"
 
 namespace onmesh {
@@ -19,7 +22,7 @@ struct Reference {
 /// The filter as DESIGN defines it, in double, over all texels of a flat patch.
 Reference brute_force(const FlatPatch& flat, const KernelOptions& options, int range_channels) {
   const auto channels = std::size_t(flat.channels);
-  const double limit = options.radius * options.radius * (1 + 1e-5);
+  const double limit = largest_squared(options.radius);
   Reference result;
   for (const Index x : flat.target_texels) {
     std::vector<double> sum(channels, 0);
@@ -52,59 +55,80 @@ double psnr(const std::vector<float>& a, const std::vector<double>& b) {
   return 10 * std::log10(double(a.size()) / sum);
 }
 
-double reach_for(double radius, double spacing) { return radius * 1.00001 + 2.6 * spacing; }
+/// Filter a flat patch and compare all values and the number of pairs with brute_force().
+KernelCounts check_filter(const FlatPatch& flat, const KernelOptions& options, int range_channels,
+                          double least_psnr) {
+  KernelInput input = flat.input();
+  input.colours.range_channels = range_channels;
+  std::vector<float> out;
+  const KernelCounts counts = filter_patch(input, options, out);
+  const Reference reference = brute_force(flat, options, range_channels);
+  const double found = psnr(out, reference.values);
+  INFO(kernel_target());
+  UNSCOPED_INFO("PSNR " << found << " of " << flat.channels << " channels");
+  CHECK(counts.pairs == reference.pairs);
+  CHECK(counts.without_sample == 0);
+  CHECK(found > least_psnr);
+  return counts;
+}
+
+double reach_for(double radius, double spacing) { return largest_distance(radius) + 2.6 * spacing; }
 
 TEST_CASE("on a flat patch the kernel is the plain 2D bilateral filter", "[kernel]") {
   const int channels = GENERATE(1, 2, 3, 4, 6);
   const double aspect = GENERATE(1.0, 2.0);
-  const FlatPatch flat = make_flat_patch(72, 60, aspect, 6, 0.25, reach_for(12.5, 6), channels, 11);
-  const KernelOptions options{5, 12.5, 0.3};
-  std::vector<float> out;
-  const KernelCounts counts = filter_patch(flat.input(), options, out);
-  const Reference reference = brute_force(flat, options, channels);
-  CHECK(counts.pairs == reference.pairs);
-  CHECK(counts.without_sample == 0);
-  CHECK(psnr(out, reference.values) > 110);
+  const FlatPatch flat = make_flat_patch({.width = 72,
+                                          .height = 60,
+                                          .aspect = aspect,
+                                          .spacing = 6,
+                                          .core = 0.25,
+                                          .reach = reach_for(12.5, 6),
+                                          .channels = channels,
+                                          .seed = 11});
+  check_filter(flat, {5, 12.5, 0.3}, channels, 110);
 }
 
 TEST_CASE("without sigma_range the kernel is the plain 2D Gaussian filter", "[kernel]") {
   const int channels = GENERATE(1, 2, 3, 4, 5);
-  const FlatPatch flat = make_flat_patch(72, 60, 1, 6, 0.25, reach_for(15, 6), channels, 5);
-  const KernelOptions options{5, 15, 0};
-  std::vector<float> out;
-  const KernelCounts counts = filter_patch(flat.input(), options, out);
-  const Reference reference = brute_force(flat, options, 0);
-  CHECK(counts.pairs == reference.pairs);
-  CHECK(psnr(out, reference.values) > 110);
+  const FlatPatch flat = make_flat_patch({.width = 72,
+                                          .height = 60,
+                                          .spacing = 6,
+                                          .core = 0.25,
+                                          .reach = reach_for(15, 6),
+                                          .channels = channels,
+                                          .seed = 5});
+  check_filter(flat, {5, 15, 0}, channels, 110);
 }
 
 TEST_CASE("ten thousand taps keep 100 dB", "[kernel]") {
   const double sigma_range = GENERATE(0.0, 0.5);
-  const FlatPatch flat = make_flat_patch(150, 150, 1, 14, 0.1, reach_for(57, 14), 3, 3);
-  const KernelOptions options{20, 57, sigma_range};
-  std::vector<float> out;
-  const KernelCounts counts = filter_patch(flat.input(), options, out);
-  REQUIRE(counts.pairs > 10'000 * flat.target_texels.size());
-  const double db = psnr(out, brute_force(flat, options, 3).values);
-  UNSCOPED_INFO("dB: " << db);
-  CHECK(db > 100);
+  const FlatPatch flat = make_flat_patch({.width = 150,
+                                          .height = 150,
+                                          .spacing = 14,
+                                          .core = 0.1,
+                                          .reach = reach_for(57, 14),
+                                          .channels = 3});
+  const KernelCounts counts = check_filter(flat, {20, 57, sigma_range}, 3, 100);
+  CHECK(counts.pairs > 10'000 * flat.target_texels.size());
 }
 
 TEST_CASE("faces with a few samples and vectors over many faces filter alike", "[kernel]") {
   const double spacing = GENERATE(1.1, 2.5);
-  const FlatPatch flat = make_flat_patch(40, 40, 1, spacing, 0.3, reach_for(5, spacing), 3, 23);
-  const KernelOptions options{2, 5, 0.2};
-  std::vector<float> out;
-  const KernelCounts counts = filter_patch(flat.input(), options, out);
-  const Reference reference = brute_force(flat, options, 3);
-  CHECK(counts.pairs == reference.pairs);
-  CHECK(psnr(out, reference.values) > 110);
+  const FlatPatch flat = make_flat_patch(
+      {.spacing = spacing, .core = 0.3, .reach = reach_for(5, spacing), .channels = 3, .seed = 23});
+  check_filter(flat, {2, 5, 0.2}, 3, 110);
 }
 
 TEST_CASE("a core much wider than the radius filters right in any unit of length", "[kernel]") {
   // Targets that share a vector may be out of each other's reach here.
   const double unit = GENERATE(1.0, 1.0 / 80, 300.0);
-  FlatPatch flat = make_flat_patch(80, 60, 1, 3, 0.8, reach_for(3, 3), 3, 37);
+  FlatPatch flat = make_flat_patch({.width = 80,
+                                    .height = 60,
+                                    .spacing = 3,
+                                    .core = 0.8,
+                                    .reach = reach_for(3, 3),
+                                    .channels = 3,
+                                    .seed = 37});
   flat.patch.longest_edge *= unit;
   for (auto& lengths : flat.patch.lengths) {
     for (double& length : lengths) length *= unit;
@@ -114,26 +138,26 @@ TEST_CASE("a core much wider than the radius filters right in any unit of length
   }
   for (Sample& s : flat.samples.samples) s.area *= static_cast<float>(unit * unit);
   for (Vec2& p : flat.positions) p *= unit;
-  const KernelOptions options{unit, 3 * unit, GENERATE(0.0, 0.2)};
-  std::vector<float> out;
-  const KernelCounts counts = filter_patch(flat.input(), options, out);
-  const Reference reference = brute_force(flat, options, 3);
-  CHECK(counts.pairs == reference.pairs);
-  CHECK(psnr(out, reference.values) > 110);
+  check_filter(flat, {unit, 3 * unit, GENERATE(0.0, 0.2)}, 3, 110);
 }
 
 TEST_CASE("only range channels take part in the colour difference", "[kernel]") {
-  const FlatPatch flat = make_flat_patch(48, 40, 1, 6, 0.25, reach_for(10, 6), 4, 7);
-  const KernelOptions options{4, 10, 0.2};
-  KernelInput input = flat.input();
-  input.colours.range_channels = 1;
-  std::vector<float> out;
-  filter_patch(input, options, out);
-  CHECK(psnr(out, brute_force(flat, options, 1).values) > 110);
+  const FlatPatch flat = make_flat_patch({.width = 48,
+                                          .spacing = 6,
+                                          .core = 0.25,
+                                          .reach = reach_for(10, 6),
+                                          .channels = 4,
+                                          .seed = 7});
+  check_filter(flat, {4, 10, 0.2}, GENERATE(1, 3), 110);
 }
 
 TEST_CASE("pairs at exactly the radius count", "[kernel]") {
-  const FlatPatch flat = make_flat_patch(60, 60, 1, 7.3, 0.2, reach_for(13, 7.3), 1, 2);
+  const FlatPatch flat = make_flat_patch({.width = 60,
+                                          .height = 60,
+                                          .spacing = 7.3,
+                                          .core = 0.2,
+                                          .reach = reach_for(13, 7.3),
+                                          .seed = 2});
   // 5-12-13: twelve lattice points lie on the circle of radius 13.
   std::vector<float> out;
   const KernelCounts counts = filter_patch(flat.input(), {5, 13, 0}, out);
@@ -145,27 +169,29 @@ TEST_CASE("pairs at exactly the radius count", "[kernel]") {
 }
 
 TEST_CASE("every instruction set agrees", "[kernel]") {
-  const FlatPatch flat = make_flat_patch(60, 60, 1, 7, 0.25, reach_for(12, 7), 3, 29);
-  const KernelOptions options{5, 12, 0.15};
-  const Reference reference = brute_force(flat, options, 3);
+  const FlatPatch flat = make_flat_patch({.width = 60,
+                                          .height = 60,
+                                          .spacing = 7,
+                                          .core = 0.25,
+                                          .reach = reach_for(12, 7),
+                                          .channels = 3,
+                                          .seed = 29});
   const std::int64_t supported = hwy::SupportedTargets();
-  int tried = 0;
+  std::set<std::string> tried;
   for (std::int64_t rest = supported; rest != 0; rest &= rest - 1) {
     hwy::SetSupportedTargetsForTest(rest & -rest);
-    std::vector<float> out;
-    const KernelCounts counts = filter_patch(flat.input(), options, out);
-    INFO(kernel_target());
-    CHECK(counts.pairs == reference.pairs);
-    CHECK(psnr(out, reference.values) > 110);
-    ++tried;
+    tried.insert(kernel_target());
+    check_filter(flat, {5, 12, 0.15}, 3, 110);
   }
   hwy::SetSupportedTargetsForTest(0);
-  CHECK(tried > 0);
+  tried.insert(kernel_target());
+  // The plain one, the best one, and on most processors some between.
+  CHECK(tried.size() >= 2);
 }
 
 TEST_CASE("faces with an unreachable corner pair exchange nothing", "[kernel]") {
   // Two sheets that no path joins: every texel right of the middle is on the other one.
-  FlatPatch flat = make_flat_patch(60, 40, 1, 6, 0.5, 1e9, 1, 31);
+  FlatPatch flat = make_flat_patch({.width = 60, .spacing = 6, .seed = 31});
   const auto is_right = [&flat](Index local) {
     double x = 0;
     const Index f = flat.patch.faces[local];
@@ -222,7 +248,12 @@ TEST_CASE("faces with an unreachable corner pair exchange nothing", "[kernel]") 
 }
 
 TEST_CASE("colours that are not finite have no weight and stay", "[kernel]") {
-  FlatPatch flat = make_flat_patch(48, 40, 1, 6, 0.4, reach_for(10, 6), 3, 13);
+  FlatPatch flat = make_flat_patch({.width = 48,
+                                    .spacing = 6,
+                                    .core = 0.4,
+                                    .reach = reach_for(10, 6),
+                                    .channels = 3,
+                                    .seed = 13});
   const KernelOptions options{4, 10, GENERATE(0.0, 0.3)};
   const Index nan = flat.target_texels[5], infinite = flat.target_texels[77];
   flat.colours[nan * 3 + 1] = std::numeric_limits<float>::quiet_NaN();
@@ -254,7 +285,8 @@ TEST_CASE("colours that are not finite have no weight and stay", "[kernel]") {
 }
 
 TEST_CASE("a target without a sample within the radius keeps its values", "[kernel]") {
-  FlatPatch flat = make_flat_patch(40, 40, 1, 6, 0.4, reach_for(8, 6), 3, 17);
+  FlatPatch flat = make_flat_patch(
+      {.spacing = 6, .core = 0.4, .reach = reach_for(8, 6), .channels = 3, .seed = 17});
   Samples few = flat.samples;
   for (Sample& s : few.samples) {
     if (flat.positions[s.texel].x() > 15) s.area = 0;
@@ -275,7 +307,12 @@ TEST_CASE("a target without a sample within the radius keeps its values", "[kern
 }
 
 TEST_CASE("high dynamic range colours neither overflow nor leak", "[kernel]") {
-  FlatPatch flat = make_flat_patch(48, 40, 1, 6, 0.4, reach_for(10, 6), 3, 19);
+  FlatPatch flat = make_flat_patch({.width = 48,
+                                    .spacing = 6,
+                                    .core = 0.4,
+                                    .reach = reach_for(10, 6),
+                                    .channels = 3,
+                                    .seed = 19});
   for (std::size_t k = 0; k < flat.colours.size(); k += 3) {
     const bool bright = (k / 3) % 7 == 0;
     for (std::size_t c = 0; c < 3; ++c) flat.colours[k + c] = bright ? 65504.0F : 0.25F;

@@ -123,7 +123,7 @@ TEST_CASE("a halved table has what interpolation gives at midpoints", "[halved_p
 }
 
 TEST_CASE("the table of a halved flat patch is exact", "[halved_patch]") {
-  const FlatPatch flat = make_flat_patch(40, 40, 1, 8, 0.5, 1e3, 1, 3);
+  const FlatPatch flat = make_flat_patch({.spacing = 8});
   HalvedPatch halved;
   halve(flat.patch, flat.table, halved);
   // The middle face's three nodes are midpoints: its sides are known twice.

@@ -1,11 +1,13 @@
-// A patch's samples and targets, rearranged and scaled for the vector kernel.
+// A patch's samples and targets, rearranged and scaled for the direct sums.
 #pragma once
 
 #include <array>
-#include <cmath>
+#include <bit>
+#include <cstdint>
 #include <vector>
 
-#include "onmesh/kernel/direct/direct_kernel.h"
+#include "onmesh/base/simd_targets.h"
+#include "onmesh/kernel/kernel_input.h"
 
 namespace onmesh {
 
@@ -16,11 +18,37 @@ enum class RangeTerm {
   difference,  ///< -(x - y)^2: where colours are so far apart that the product would cancel
 };
 
-/// What the kernel reads. Squared distances are scaled by -log2(e) / (2 sigma_s^2) and called
-/// exponents (they are added up and raised to the power of two), in units of 1 / kExponentUnit;
-/// colours are counted from `reference` and scaled by sqrt(log2(e) / 2) / sigma_r and the root of
+/// The floats of a sample's record, by their places in it.
+struct RecordField {
+  enum : std::size_t {
+    b1,  ///< barycentric coordinate of corner 1 in the sample's face
+    b2,  ///< of corner 2
+    /// What the sample adds to all its exponents: its variance and the log2 of its area relative to
+    /// the patch's largest, less the square of its colour if the range term is `product`.
+    exponent,
+    least,  ///< exponent at the radius, less the sample's variance: see PatchRecords::limit
+    face,   ///< the bits of its face's number, see face_of()
+    colour  ///< the first of `channels` scaled values
+  };
+};
+
+/// \return number of the record's face in PatchRecords::faces
+inline std::uint32_t face_of(const float* record) {
+  return std::bit_cast<std::uint32_t>(record[RecordField::face]);
+}
+inline void set_face(float* record, std::uint32_t face) {
+  record[RecordField::face] = std::bit_cast<float>(face);
+}
+
+/// What the direct sums read.
+///
+/// The squared distance of a target x and a sample y in faces with corners i and j is
+/// d^2(x,y) = sum_ij a_i b_j D_ij - V(x) - V(y), derived in lib/README.md. Squared distances are
+/// scaled by -log2(e) / (2 sigma_s^2) and called exponents (they are added up and raised to the
+/// power of two), in units of 1 / kExponentUnit; variances V are scaled alike but stay positive.
+/// Colours are counted from `reference` and scaled by sqrt(log2(e) / 2) / sigma_r and the root of
 /// that unit, so that their squared differences are exponents too.
-struct KernelWork {
+struct PatchRecords {
   /// A local face that has samples.
   struct Face {
     std::array<Index, 3> corners;    ///< local nodes
@@ -36,7 +64,7 @@ struct KernelWork {
     std::array<float, 3> barycentric;
     float variance = 0;  ///< scaled, >= 0
     Index face = 0;      ///< local core face
-    Index slot = 0;      ///< where the result goes: target number in the order of filter_patch
+    Index slot = 0;      ///< where the result goes
     Index texel = 0;
   };
 
@@ -52,15 +80,10 @@ struct KernelWork {
   double core_reach = 0;  ///< the radius and the longest edge of a target's face
 
   std::vector<Face> faces;
-  /// Per sample kFixed values, then its scaled colour y: b1, b2, variance + a, limit - variance,
-  /// the bits of the number of its face, where a is log2 of its area relative to the patch's
-  /// largest, less y^2 if the range term is `product`.
-  static constexpr std::size_t kFixed = 5;
-  std::vector<float> records;
-  std::size_t stride() const { return kFixed + std::size_t(channels); }
+  std::vector<float> records;  ///< stride() floats each, see RecordField
+  std::size_t stride() const { return RecordField::colour + std::size_t(channels); }
   /// The records' b1, b2 and variance once more, in arrays of their own, so that a vector of
-  /// samples can be looked at; padded by kPadding.
-  static constexpr std::size_t kPadding = 16;
+  /// samples can be looked at; padded by kLanes.
   std::vector<float> b1, b2, variance;
 
   /// In an order in which neighbours in the list lie close to each other on the surface.
@@ -70,19 +93,10 @@ struct KernelWork {
   std::size_t kept = 0;  ///< number of targets that keep their value
 };
 
-/// Gather samples of all faces of the patch and targets of its core. Values that targets keep are
-/// written to `out`, which is resized. Buffers of `work` are used again.
-void gather(const KernelInput& input, const KernelOptions& options, KernelWork& work,
-            std::vector<float>& out);
-
-/// Scaled colours beyond this would overflow when squared and summed.
-constexpr float kLargestColour = 1e15F;
-
-/// A texel's values can be summed: finite, and small enough to be squared once scaled.
-inline bool is_usable(const float* colour, int channels, float scale) {
-  bool usable = true;  // comparisons with NaN fail
-  for (int c = 0; c < channels; ++c) usable &= std::abs(colour[c] * scale) < kLargestColour;
-  return usable;
-}
+/// Gather samples of all faces of the patch and targets of its core.
+/// \param records its buffers are used again
+/// \param out resized to all targets; values that targets keep are written to it
+void gather_records(const KernelInput& input, const KernelOptions& options, PatchRecords& records,
+                    std::vector<float>& out);
 
 }  // namespace onmesh

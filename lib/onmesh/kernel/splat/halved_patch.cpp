@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cassert>
 
+#include "onmesh/base/simd_targets.h"
+
 // This file is compiled once per instruction set (Highway); the best one is chosen at run time.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "onmesh/kernel/splat/halved_patch.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+#include "onmesh/kernel/vectors-inl.h"
 
 #ifndef ONMESH_HALVED_PATCH_ONCE_
 #define ONMESH_HALVED_PATCH_ONCE_
@@ -31,10 +34,6 @@ HWY_BEFORE_NAMESPACE();
 namespace onmesh {
 namespace HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::ScalableTag<float>;
-using V = hn::Vec<D>;
 
 /// At a midpoint, from the entries at its edge's ends.
 HWY_INLINE V entry_between(V a, V b, V quarter) {
@@ -93,9 +92,11 @@ struct Numbers {
   std::vector<std::array<Index, 2>> ends;  ///< per edge: nodes of the whole patch
   std::vector<float> quarter;              ///< per edge: a quarter of its squared length
   std::vector<std::array<Index, 3>> edge;  ///< per face of the whole patch
-  Index core = 0, count = 0;
+  Index core = 0, count = 0;               ///< of the halved patch: core nodes, all nodes
+  Index whole_core;                        ///< the whole patch's core nodes
 
-  explicit Numbers(const Patch& whole) : node(whole.nodes.size(), kNone) {
+  explicit Numbers(const Patch& whole)
+      : node(whole.nodes.size(), kNone), whole_core(whole.core_nodes) {
     Index edges = 0;
     edge = number_edges(whole, edges);
     midpoint.assign(edges, kNone);
@@ -164,12 +165,7 @@ Columns columns_of(const Numbers& numbers) {
   return columns;
 }
 
-}  // namespace
-
-void halve(const Patch& whole, const DistanceTable& table, HalvedPatch& halved) {
-  assert(whole.bridge_faces == 0);
-  const Numbers numbers(whole);
-  Patch& patch = halved.patch;
+void halve_faces(const Patch& whole, const Numbers& numbers, Patch& patch) {
   const std::size_t faces = whole.corners.size();
   patch.nodes.resize(numbers.count);
   patch.core_nodes = numbers.core;
@@ -196,14 +192,15 @@ void halve(const Patch& whole, const DistanceTable& table, HalvedPatch& halved) 
     }
   }
   glue(whole, patch);
+}
 
-  DistanceTable& fine = halved.table;
+void halve_table(const DistanceTable& table, const Numbers& numbers, DistanceTable& fine) {
   fine.rows = numbers.core;
   fine.columns = numbers.count;
   fine.squared.resize(std::size_t(fine.rows) * fine.columns);
   const Columns columns = columns_of(numbers);
   const auto row = [&](Index n) { return fine.squared.data() + std::size_t(n) * fine.columns; };
-  for (Index n = 0; n < whole.core_nodes; ++n)
+  for (Index n = 0; n < numbers.whole_core; ++n)
     HWY_DYNAMIC_DISPATCH(fill_node_row)(columns, table.row(n), row(n));
   for (std::size_t e = 0; e < numbers.ends.size(); ++e) {
     if (numbers.midpoint[e] >= numbers.core) continue;
@@ -212,6 +209,15 @@ void halve(const Patch& whole, const DistanceTable& table, HalvedPatch& halved) 
     (row(numbers.node[a]), row(numbers.node[b]), numbers.quarter[e], fine.columns,
      row(numbers.midpoint[e]));
   }
+}
+
+}  // namespace
+
+void halve(const Patch& whole, const DistanceTable& table, HalvedPatch& halved) {
+  assert(whole.bridge_faces == 0);
+  const Numbers numbers(whole);
+  halve_faces(whole, numbers, halved.patch);
+  halve_table(table, numbers, halved.table);
 }
 
 }  // namespace onmesh

@@ -1,7 +1,7 @@
 // A patch with faces of half the size, and its table.
 #pragma once
 
-#include "onmesh/distance/backend.h"
+#include "onmesh/distance/distance_table.h"
 #include "onmesh/patches/patch.h"
 
 namespace onmesh {
@@ -10,12 +10,14 @@ namespace onmesh {
 /// its corners and 4 f + 3 in the middle, whose corner k is the midpoint opposite corner k. Nodes
 /// have other numbers than in the whole patch (and Patch::nodes is left empty but for its size).
 /// The table's entries at midpoints follow from those at nodes by the formula that serves all
-/// points of faces, d^2(m) = (d^2(a) + d^2(b)) / 2 - l^2 / 4.
+/// points of faces (derived in lib/README.md): d^2(m) = (d^2(a) + d^2(b)) / 2 - l^2 / 4, where l is
+/// the length of the edge from a to b.
 struct HalvedPatch {
   Patch patch;
   DistanceTable table;
 };
 
+/// \param halved its buffers are used again
 /// \pre the patch has no bridges
 void halve(const Patch& whole, const DistanceTable& table, HalvedPatch& halved);
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "onmesh/kernel/direct/direct_kernel.h"
+#include "onmesh/kernel/kernel_input.h"
 
 namespace onmesh {
 

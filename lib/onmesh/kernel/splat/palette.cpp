@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "onmesh/base/simd_targets.h"
+
 namespace onmesh {
 namespace {
 
@@ -49,6 +51,42 @@ Points choose_start(const Points& points, Eigen::Index size) {
   return centres.leftCols(found);
 }
 
+/// Lloyd's iterations: move centres to the means of the points nearest to them.
+/// \return mean squared distance of the points to their nearest centre
+double move_centres(const Points& points, Points& centres) {
+  std::vector<int> nearest(std::size_t(points.rows()));
+  Eigen::VectorXf squared(points.rows());
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    assign(points, centres, nearest, squared);
+    Points sums = Points::Zero(centres.rows(), centres.cols());
+    Eigen::VectorXf members = Eigen::VectorXf::Zero(centres.cols());
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      sums.col(nearest[std::size_t(i)]) += points.row(i).transpose();
+      ++members[nearest[std::size_t(i)]];
+    }
+    for (Eigen::Index k = 0; k < centres.cols(); ++k)
+      if (members[k] > 0) centres.col(k) = sums.col(k) / members[k];
+  }
+  assign(points, centres, nearest, squared);
+  return squared.cast<double>().mean();
+}
+
+/// See Palette::inverse.
+std::vector<float> inverse_kernel(const Points& centres, std::size_t padded) {
+  const Eigen::Index size = centres.cols();
+  Eigen::MatrixXd kernel(size, size);
+  for (Eigen::Index k = 0; k < size; ++k)
+    for (Eigen::Index l = 0; l < size; ++l)
+      kernel(k, l) = std::exp2(-double((centres.col(k) - centres.col(l)).squaredNorm()));
+  kernel.diagonal().array() += kRegularisation;
+  const Eigen::MatrixXd inverse = kernel.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
+  std::vector<float> result(padded * padded, 0);
+  for (Eigen::Index k = 0; k < size; ++k)
+    for (Eigen::Index l = 0; l < size; ++l)
+      result[std::size_t(k) * padded + std::size_t(l)] = float(inverse(k, l));
+  return result;
+}
+
 }  // namespace
 
 Palette make_palette(const float* colours, std::size_t count, std::size_t stride,
@@ -58,43 +96,17 @@ Palette make_palette(const float* colours, std::size_t count, std::size_t stride
   for (Eigen::Index i = 0; i < points.rows(); ++i)
     for (std::size_t c = 0; c < channels; ++c)
       points(i, Eigen::Index(c)) = colours[std::size_t(i) * step * stride + c];
-
   Points centres = choose_start(points, Eigen::Index(size));
-  const Eigen::Index k_count = centres.cols();
-  std::vector<int> nearest(std::size_t(points.rows()));
-  Eigen::VectorXf squared(points.rows());
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
-    assign(points, centres, nearest, squared);
-    Points sums = Points::Zero(centres.rows(), k_count);
-    Eigen::VectorXf members = Eigen::VectorXf::Zero(k_count);
-    for (Eigen::Index i = 0; i < points.rows(); ++i) {
-      sums.col(nearest[std::size_t(i)]) += points.row(i).transpose();
-      ++members[nearest[std::size_t(i)]];
-    }
-    for (Eigen::Index k = 0; k < k_count; ++k)
-      if (members[k] > 0) centres.col(k) = sums.col(k) / members[k];
-  }
-  assign(points, centres, nearest, squared);
 
   Palette palette;
-  palette.size = std::size_t(k_count);
-  palette.padded = (palette.size + Palette::kLanes - 1) / Palette::kLanes * Palette::kLanes;
-  palette.residual = squared.cast<double>().mean();
+  palette.residual = move_centres(points, centres);
+  palette.size = std::size_t(centres.cols());
+  palette.padded = padded_to_lanes(palette.size);
   palette.colours.assign(channels * palette.padded, kFarAway);
   for (std::size_t c = 0; c < channels; ++c)
-    for (Eigen::Index k = 0; k < k_count; ++k)
-      palette.colours[c * palette.padded + std::size_t(k)] = centres(Eigen::Index(c), k);
-
-  Eigen::MatrixXd kernel(k_count, k_count);
-  for (Eigen::Index k = 0; k < k_count; ++k)
-    for (Eigen::Index l = 0; l < k_count; ++l)
-      kernel(k, l) = std::exp2(-double((centres.col(k) - centres.col(l)).squaredNorm()));
-  kernel.diagonal().array() += kRegularisation;
-  const Eigen::MatrixXd inverse = kernel.ldlt().solve(Eigen::MatrixXd::Identity(k_count, k_count));
-  palette.inverse.assign(palette.padded * palette.padded, 0);
-  for (Eigen::Index k = 0; k < k_count; ++k)
-    for (Eigen::Index l = 0; l < k_count; ++l)
-      palette.inverse[std::size_t(k) * palette.padded + std::size_t(l)] = float(inverse(k, l));
+    for (std::size_t k = 0; k < palette.size; ++k)
+      palette.colours[c * palette.padded + k] = centres(Eigen::Index(c), Eigen::Index(k));
+  palette.inverse = inverse_kernel(centres, palette.padded);
   return palette;
 }
 

@@ -1,0 +1,59 @@
+#include "onmesh/kernel/splat/node_kernel.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "onmesh/kernel/direct/direct_kernel.h"
+#include "support/flat_patch.h"
+
+using namespace onmesh;
+
+namespace {
+
+/// Smooth colours on a patch whose core is away from its border.
+FlatPatch make_smooth_patch(double spacing) {
+  FlatPatch flat =
+      make_flat_patch({.width = 96, .height = 96, .spacing = spacing, .core = 0.3, .channels = 3});
+  for (std::size_t t = 0; t < flat.positions.size(); ++t) {
+    const double x = flat.positions[t].x() / 96, y = flat.positions[t].y() / 96;
+    flat.colours[3 * t] = float(x);
+    flat.colours[3 * t + 1] = float(0.5 + 0.5 * std::sin(7 * x + 3 * y));
+    flat.colours[3 * t + 2] = float(y * y);
+  }
+  return flat;
+}
+
+}  // namespace
+
+TEST_CASE("sums on subnodes are close to direct sums", "[node_kernel]") {
+  const double spacing = GENERATE(5.0, 14.0);  // split; halved and split
+  const double sigma = 6, sigma_range = GENERATE(0.0, 0.3);
+  const FlatPatch flat = make_smooth_patch(spacing);
+  CHECK(NodeKernel::halves(spacing, sigma) == (spacing > 2 * sigma));
+  const KernelOptions options{sigma, 2.5 * sigma, sigma_range};
+  NodeKernel kernel(options);
+  REQUIRE(kernel.load(flat.input()));
+  kernel.choose_palette(64);
+  std::vector<float> out, support, direct;
+  CHECK(kernel.evaluate(out, support) == (sigma_range > 0 ? 64 : 0));
+  filter_patch(flat.input(), options, direct);
+  REQUIRE(out.size() == direct.size());
+  double worst = 0;
+  for (std::size_t k = 0; k < out.size(); ++k)
+    worst = std::max(worst, std::abs(double(out[k]) - direct[k]));
+  INFO("worst " << worst);
+  CHECK(worst < 0.004);
+  // Weights sum to the Gaussian's integral within the radius, less for colours apart.
+  const double disc = 2 * M_PI * sigma * sigma * (1 - std::exp(-2.5 * 2.5 / 2));
+  for (const float s : support) CHECK(s <= 1.01 * disc);
+  if (sigma_range == 0) {
+    for (const float s : support) CHECK(s == Approx(disc).epsilon(0.01));
+  }
+}
+
+TEST_CASE("nodes that are too coarse for sigma are refused", "[node_kernel]") {
+  const FlatPatch flat = make_flat_patch({.spacing = 10});
+  CHECK_FALSE(NodeKernel({0.5, 1.25, 0}).load(flat.input()));
+  CHECK(NodeKernel({3, 7.5, 0}).load(flat.input()));
+}
