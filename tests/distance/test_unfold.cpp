@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "onmesh/mesh/clean.h"
 #include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/patches/grow_patch.h"
 #include "onmesh/patches/partition.h"
