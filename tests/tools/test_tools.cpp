@@ -1,6 +1,8 @@
 // The program's manners: help, messages, exit codes, what it leaves behind.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
 
 #include "support/run_program.h"
 

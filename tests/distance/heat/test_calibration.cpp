@@ -6,6 +6,7 @@
 
 #include "onmesh/distance/backend.h"
 #include "support/distance_errors.h"
+#include "support/simple_shapes.h"
 
 namespace onmesh {
 namespace {
