@@ -117,7 +117,7 @@ Values filter_values(const Scene& scene, FilterKind kind, const DistanceBackend&
   work.sources = &scene.samples;
   work.targets = &targets;
   work.colours = {scene.texture.pixels.data(), channels, bilateral ? channels : 0, channels};
-  work.kernel = {weights.sigma, weights.radius, bilateral ? weights.sigma_range : 0};
+  work.kernel = {weights.sigma, weights.radius, weights.sigma_range};
   Values values(scene.tried.size());
   filter_patches(work,
                  [&](Index begin, Index end, const float* result) {

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <random>
 
 #include "onmesh/base/error.h"
 #include "onmesh/kernel/radius.h"
@@ -72,7 +73,8 @@ double thread_seconds() {
 }
 
 Weights Scene::weights(FilterKind kind) const {
-  return {kind, sigma(), sigma() * (kind == FilterKind::bilateral ? 2.5 : 3.0), kSigmaRange};
+  const bool bilateral = kind == FilterKind::bilateral;
+  return {sigma(), sigma() * (bilateral ? 2.5 : 3.0), bilateral ? kSigmaRange : 0};
 }
 
 std::vector<Subject> built_in_subjects(bool quick) {
@@ -113,7 +115,7 @@ Scene make_scene(const Subject& subject, double sigma_texels, std::size_t texels
   scene.setup = set_up_filter(subject.make(), scene.texture, options);
   const TriangleMesh& mesh = scene.setup.mesh;
 
-  scene.points = texel_points(mesh, scene.setup.map);
+  scene.points = texel_points(mesh, scene.texture.width, scene.texture.height);
   const std::vector<std::size_t> centres = choose_centres(scene, texels);
   if (centres.empty()) throw InputError(subject.name + ": several places claim every texel");
   scene.tried_at.assign(scene.setup.map.coverage.size(), kNone);

@@ -8,7 +8,7 @@
 #include "onmesh/filter/setup.h"
 #include "onmesh/nodes/refine.h"
 #include "onmesh/samples/samples.h"
-#include "support/brute_force.h"
+#include "support/oracle.h"
 
 namespace onmesh::bench {
 

@@ -1,78 +1,41 @@
 // The filter on meshes that are not manifold, against closed forms.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <random>
 
 #include "onmesh/atlas/gutter.h"
 #include "onmesh/base/error.h"
 #include "onmesh/distance/unfold.h"
-#include "onmesh/measure/mesh_report.h"
 #include "onmesh/nodes/bisection.h"
 #include "onmesh/patches/grow_patch.h"
 #include "onmesh/procedural/shapes.h"
-#include "support/brute_force.h"
+#include "support/closed_forms.h"
+#include "support/filter_error.h"
+#include "support/images.h"
 
 namespace onmesh {
 namespace {
 
-Image noise_image(int side) { return make_texture(side, side, Pattern::checker, 0.3, 7, 3); }
-
-bool same_values(const Image& a, const Image& b) {
-  return a.pixels.size() == b.pixels.size() &&
-         std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
-}
-
-FilterOptions options_for(FilterKind kind, double sigma,
-                          DistanceMethod method = DistanceMethod::unfold) {
-  FilterOptions options;
-  options.kind = kind;
-  options.sigma_spatial = {sigma, Length::Unit::mesh};
-  options.sigma_range = 0.2;
-  options.distance = method;
-  return options;
-}
-
-/// Filter and compare with the definition. \return dB
+/// Of 500 texels, dB.
 double psnr_against(const TriangleMesh& mesh, const Image& texture, FilterKind kind, double sigma,
                     const Distances& distances, FilterReport* report = nullptr,
                     DistanceMethod method = DistanceMethod::unfold) {
-  const FilterOptions options = options_for(kind, sigma, method);
-  const Image result = filter(mesh, texture, options, report);
-  const double radius = sigma * (kind == FilterKind::bilateral ? 2.5 : 3.0);
-  return against_brute_force(mesh, texture, result, kind, sigma, radius, options.sigma_range, 500,
-                             distances)
-      .psnr;
-}
-
-/// Distances from positions alone.
-Distances by_positions(const TriangleMesh& mesh,
-                       const std::function<double(const Vec3&, const Vec3&)>& distance) {
-  return [&mesh, distance](const SurfacePoint& source, const std::vector<SurfacePoint>& targets) {
-    std::vector<double> result;
-    const Vec3 x = mesh.position(source);
-    for (const SurfacePoint& t : targets) result.push_back(distance(x, mesh.position(t)));
-    return result;
-  };
-}
-
-/// Any two pages are one flat sheet; a page's points lie at an angle of their own.
-double book_distance(const Vec3& a, const Vec3& b) {
-  const double s = std::hypot(a.x(), a.z()), t = std::hypot(b.x(), b.z());
-  const bool same_page = a.x() * b.x() + a.z() * b.z() > (1 - 1e-9) * s * t;
-  return std::hypot(same_page ? s - t : s + t, a.y() - b.y());
+  const FilterOptions options = options_in_mesh_units(kind, sigma, method);
+  const DefinitionError error = error_of_filter(mesh, texture, options, 500, distances, report);
+  WARN("psnr " << mesh.faces.size() << " " << int(kind) << " " << sigma << " " << int(method)
+               << ": " << error.psnr << " worst " << error.worst);
+  return error.psnr;
 }
 
 TEST_CASE("pages of a book filter as the flat sheets that any two of them are", "[soup]") {
-  const Image texture = noise_image(192);
+  const Image texture = noisy_checker(192, 192);
   for (const double angle : {40.0, 3.0}) {  // nearly closed, pages are much closer than the nodes
     for (const int segments : {1, 5}) {
       const TriangleMesh book = make_book(segments, angle);
       for (const FilterKind kind : {FilterKind::bilateral, FilterKind::gaussian}) {
         FilterReport report;
-        const double psnr =
-            psnr_against(book, texture, kind, 0.15, by_positions(book, book_distance), &report);
+        const double psnr = psnr_against(book, texture, kind, 0.15, book_distances(book), &report);
         INFO(angle << " degrees, " << segments << " segments");
         CHECK(psnr >= 120);
         CHECK(report.refinement == "intrinsic");
@@ -83,7 +46,7 @@ TEST_CASE("pages of a book filter as the flat sheets that any two of them are", 
 }
 
 TEST_CASE("the report says that and why a mesh is not manifold", "[soup]") {
-  const Image texture = noise_image(32);
+  const Image texture = noisy_checker(32, 32);
   FilterOptions options;
   FilterReport report;
   filter(make_book(3), texture, options, &report);
@@ -107,28 +70,8 @@ TEST_CASE("the report says that and why a mesh is not manifold", "[soup]") {
                     "faces); use unfold");
 }
 
-/// On make_moebius(): the shortest way on the unrolled double cover.
-Distances moebius_distances(const TriangleMesh& strip, double length) {
-  return [&strip, length](const SurfacePoint& source, const std::vector<SurfacePoint>& targets) {
-    const double scale = kMoebiusScale / length;
-    std::vector<double> result;
-    const Vec2 x = (strip.uv(source) - Vec2(0.5, 0.5)) / scale;
-    for (const SurfacePoint& t : targets) {
-      const Vec2 y = (strip.uv(t) - Vec2(0.5, 0.5)) / scale, turned(y.x(), -y.y());
-      result.push_back(std::min({(x - y).norm(), (x - turned - Vec2(length, 0)).norm(),
-                                 (x - turned + Vec2(length, 0)).norm()}));
-    }
-    return result;
-  };
-}
-
-/// On make_bow_tie(): from one half to the other through the origin.
-double bow_tie_distance(const Vec3& a, const Vec3& b) {
-  return (a.x() < 0) == (b.x() < 0) ? (a - b).norm() : a.norm() + b.norm();
-}
-
 TEST_CASE("a Moebius strip filters as its unrolled double cover", "[soup]") {
-  const Image texture = noise_image(256);
+  const Image texture = noisy_checker(256, 256);
   const double length = 8, width = 1;
   for (const int segments : {1, 3}) {
     const TriangleMesh strip = make_moebius(segments, length, width);
@@ -145,16 +88,16 @@ TEST_CASE("a constant texture stays constant on a Moebius strip, gutter included
   std::fill(texture.pixels.begin(), texture.pixels.end(), 0.4F);
   const TriangleMesh strip = make_moebius(2);
   FilterReport report;
-  CHECK(same_values(filter(strip, texture, options_for(FilterKind::gaussian, 0.3), &report),
-                    texture));
+  CHECK(same_values(
+      filter(strip, texture, options_in_mesh_units(FilterKind::gaussian, 0.3), &report), texture));
   CHECK(report.gutter > 100);
 }
 
 TEST_CASE("paths between the halves of a bow tie lead through their common corner", "[soup]") {
-  const Image texture = noise_image(128);
+  const Image texture = noisy_checker(128, 128);
   const TriangleMesh tie = make_bow_tie(2);
   for (const FilterKind kind : {FilterKind::bilateral, FilterKind::gaussian})
-    CHECK(psnr_against(tie, texture, kind, 0.15, by_positions(tie, bow_tie_distance)) >= 70);
+    CHECK(psnr_against(tie, texture, kind, 0.15, bow_tie_distances(tie)) >= 70);
 }
 
 TEST_CASE("cloud filters soups close to their closed forms", "[soup][cloud]") {
@@ -167,11 +110,10 @@ TEST_CASE("cloud filters soups close to their closed forms", "[soup][cloud]") {
     Distances distances;
     double gaussian, bilateral;  // least dB
   };
-  for (const Case& c :
-       {Case{"book", book, 192, 0.15, by_positions(book, book_distance), 69, 76},
-        Case{"Moebius strip", strip, 256, 0.2, moebius_distances(strip, 8), 70, 73},
-        Case{"bow tie", tie, 128, 0.15, by_positions(tie, bow_tie_distance), 69, 76}}) {
-    const Image texture = noise_image(c.texels);
+  for (const Case& c : {Case{"book", book, 192, 0.15, book_distances(book), 69, 76},
+                        Case{"Moebius strip", strip, 256, 0.2, moebius_distances(strip, 8), 70, 73},
+                        Case{"bow tie", tie, 128, 0.15, bow_tie_distances(tie), 69, 76}}) {
+    const Image texture = noisy_checker(c.texels, c.texels);
     for (const FilterKind kind : {FilterKind::gaussian, FilterKind::bilateral}) {
       FilterReport report;
       const double psnr =
@@ -184,10 +126,10 @@ TEST_CASE("cloud filters soups close to their closed forms", "[soup][cloud]") {
 }
 
 TEST_CASE("loose triangles filter like the mesh they were", "[soup]") {
-  const Image texture = noise_image(128);
+  const Image texture = noisy_checker(128, 128);
   const auto method = GENERATE(DistanceMethod::unfold, DistanceMethod::cloud);
   for (const TriangleMesh& mesh : {make_cube(2), make_book(2)}) {
-    const FilterOptions options = options_for(FilterKind::bilateral, 0.2, method);
+    const FilterOptions options = options_in_mesh_units(FilterKind::bilateral, 0.2, method);
     FilterReport welded, loose;
     const Image a = filter(mesh, texture, options, &welded);
     const Image b = filter(loosen(mesh), texture, options, &loose);
@@ -220,7 +162,7 @@ TEST_CASE("the sides of two-sided cloth are filtered apart, each like a flat she
   for (Vec2& uv : cloth.uvs) uv.x() /= 2;
   for (std::size_t i = 0; i < 9; ++i) cloth.uvs.push_back(cloth.uvs[i] + Vec2(0.5, 0));
   const Image texture = make_texture(128, 64, Pattern::checker, 0.3, 7, 3);
-  const FilterOptions options = options_for(FilterKind::bilateral, 0.06);
+  const FilterOptions options = options_in_mesh_units(FilterKind::bilateral, 0.06);
   FilterReport report;
   const Image result = filter(cloth, texture, options, &report);
   CHECK(report.refinement == "intrinsic");
@@ -274,84 +216,6 @@ TEST_CASE("on flat faces no path is shorter than the straight line, however thin
   }
 }
 
-/// Other colours in the texels of one component.
-Image repaint(const TriangleMesh& mesh, const Image& texture, Index component) {
-  const TexelMap map = make_texel_map(mesh, texture.width, texture.height);
-  const MeshReport report = report_mesh(mesh);
-  Image image = texture;
-  for (Index f = 0; f < mesh.faces.size(); ++f) {
-    if (report.component_of_face[f] != component) continue;
-    for (Index k = map.face_offsets[f]; k < map.face_offsets[f + 1]; ++k) {
-      float* const texel = image.texel(map.texel(map.claims[k]));
-      for (int c = 0; c < image.channels; ++c) texel[c] = 1 - texel[c];
-    }
-  }
-  return image;
-}
-
-/// Largest difference of two images in the texels of one component.
-double difference(const TriangleMesh& mesh, const Image& a, const Image& b, Index component) {
-  const TexelMap map = make_texel_map(mesh, a.width, a.height);
-  const MeshReport report = report_mesh(mesh);
-  double worst = 0;
-  std::size_t texels = 0;
-  for (Index f = 0; f < mesh.faces.size(); ++f) {
-    if (report.component_of_face[f] != component) continue;
-    for (Index k = map.face_offsets[f]; k < map.face_offsets[f + 1]; ++k, ++texels) {
-      const Index t = map.texel(map.claims[k]);
-      for (int c = 0; c < a.channels; ++c)
-        worst = std::max(worst, std::abs(double(a.texel(t)[c]) - b.texel(t)[c]));
-    }
-  }
-  REQUIRE(texels > 100);
-  return worst;
-}
-
-TEST_CASE("no component influences another unless it is bridged", "[soup][bridge]") {
-  const TriangleMesh chest = make_chest(1, 0.05);
-  const Image texture = noise_image(192);
-  const Image other = repaint(chest, texture, 1);
-  FilterOptions options = options_for(FilterKind::gaussian, 0.3);
-  options.radius = Length{0.6, Length::Unit::mesh};
-  options.samples = GENERATE(SampleKind::texel, SampleKind::poisson);
-  options.distance = GENERATE(DistanceMethod::unfold, DistanceMethod::cloud);
-  CHECK(difference(chest, filter(chest, texture, options), filter(chest, other, options), 0) == 0);
-  options.bridge = Length{0.1, Length::Unit::mesh};
-  FilterReport report;
-  CHECK(difference(chest, filter(chest, texture, options, &report), filter(chest, other, options),
-                   0) > 0.2);
-  CHECK(report.bridges > 20);
-  // A bridge that is too short is none.
-  options.bridge = Length{0.04, Length::Unit::mesh};
-  CHECK(difference(chest, filter(chest, texture, options, &report), filter(chest, other, options),
-                   0) == 0);
-  CHECK(report.bridges == 0);
-}
-
-TEST_CASE("parallel sheets closer than the nodes do not leak into each other", "[soup]") {
-  // Two squares above each other, each with half of the atlas.
-  TriangleMesh sheets = make_plane(1, 1);
-  for (std::size_t i = 0; i < 4; ++i) {
-    sheets.positions.push_back(sheets.positions[i] + Vec3(0, 0, 0.05));
-    sheets.uvs[i].x() /= 2;
-    sheets.uvs.push_back(sheets.uvs[i] + Vec2(0.5, 0));
-  }
-  for (std::size_t f = 0; f < 2; ++f) {
-    const auto v = sheets.faces[f], u = sheets.face_uvs[f];
-    sheets.faces.push_back({v[0] + 4, v[1] + 4, v[2] + 4});
-    sheets.face_uvs.push_back({u[0] + 4, u[1] + 4, u[2] + 4});
-    sheets.face_materials.push_back(kNone);
-  }
-  const Image texture = noise_image(64);
-  FilterOptions options =
-      options_for(FilterKind::gaussian, 0.1,
-                  GENERATE(DistanceMethod::unfold, DistanceMethod::heat, DistanceMethod::cloud));
-  options.node_spacing = Length{0.1, Length::Unit::mesh};
-  const Image other = repaint(sheets, texture, 1);
-  CHECK(difference(sheets, filter(sheets, texture, options), filter(sheets, other, options), 0) ==
-        0);
-}
-
 TEST_CASE("parts without area and vertices without faces change nothing", "[soup]") {
   const TriangleMesh clean_mesh = make_bow_tie(2);
   TriangleMesh dirty = clean_mesh;
@@ -362,8 +226,8 @@ TEST_CASE("parts without area and vertices without faces change nothing", "[soup
   dirty.face_materials.push_back(kNone);
   dirty.positions.emplace_back(0.2, 0.2, 0.2);
   dirty.positions.emplace_back(7, 7, 7);
-  const Image texture = noise_image(96);
-  const FilterOptions options = options_for(
+  const Image texture = noisy_checker(96, 96);
+  const FilterOptions options = options_in_mesh_units(
       FilterKind::bilateral, 0.1, GENERATE(DistanceMethod::unfold, DistanceMethod::cloud));
   FilterReport report;
   const Image result = filter(dirty, texture, options, &report);
@@ -377,8 +241,8 @@ TEST_CASE("parts without area and vertices without faces change nothing", "[soup
 
 TEST_CASE("a soup's result does not depend on the number of threads", "[soup]") {
   const TriangleMesh book = make_book(3);
-  const Image texture = noise_image(192);
-  FilterOptions options = options_for(FilterKind::bilateral, 0.1);
+  const Image texture = noisy_checker(192, 192);
+  FilterOptions options = options_in_mesh_units(FilterKind::bilateral, 0.1);
   options.threads = 1;
   const Image one = filter(book, texture, options);
   for (const int threads : {2, 5}) {
@@ -389,8 +253,8 @@ TEST_CASE("a soup's result does not depend on the number of threads", "[soup]") 
 
 TEST_CASE("heat takes soups, too", "[soup]") {
   const TriangleMesh book = make_book(3);
-  const Image texture = noise_image(192);
-  FilterOptions options = options_for(FilterKind::bilateral, 0.15);
+  const Image texture = noisy_checker(192, 192);
+  FilterOptions options = options_in_mesh_units(FilterKind::bilateral, 0.15);
   const Image unfold = filter(book, texture, options);
   options.distance = DistanceMethod::heat;
   const Image heat = filter(book, texture, options);

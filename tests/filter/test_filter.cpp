@@ -10,6 +10,8 @@
 #include "onmesh/kernel/radius.h"
 #include "onmesh/procedural/shapes.h"
 #include "onmesh/procedural/texture.h"
+#include "support/closed_forms.h"
+#include "support/filter_error.h"
 #include "support/recut_atlas.h"
 
 namespace onmesh {
@@ -42,50 +44,6 @@ double psnr(const TriangleMesh& mesh, const Image& a, const Image& b) {
     if (map.coverage[t] != Coverage::covered) continue;
     for (int c = 0; c < a.channels; ++c, ++count) {
       squares += std::pow(double(a.texel(t)[c]) - b.texel(t)[c], 2);
-    }
-  }
-  REQUIRE(count > 0);
-  return decibels(squares, count);
-}
-
-/// The filter by its definition, in double, on a mesh in the xy plane without holes: geodesic
-/// distances are straight. Only every `step`th texel. \return dB
-double against_brute_force(const TriangleMesh& mesh, const Image& texture, const Image& result,
-                           FilterKind kind, double sigma, double sigma_range, Index step) {
-  struct Point {
-    Index texel;
-    Vec3 at;
-    double area;
-  };
-  const TexelMap map = make_texel_map(mesh, texture.width, texture.height);
-  std::vector<Point> points;
-  for (Index f = 0; f < mesh.faces.size(); ++f) {
-    for (Index k = map.face_offsets[f]; k < map.face_offsets[f + 1]; ++k) {
-      const SurfacePoint p{f, map.barycentric(f, map.claims[k])};
-      points.push_back({map.texel(map.claims[k]), mesh.position(p), map.texel_area[f]});
-    }
-  }
-  const double radius = sigma * (kind == FilterKind::bilateral ? 2.5 : 3.0);
-  double squares = 0;
-  std::size_t count = 0;
-  for (std::size_t x = 0; x < points.size(); x += step) {
-    const float* const own = texture.texel(points[x].texel);
-    std::vector<double> sum(std::size_t(texture.channels), 0);
-    double weights = 0;
-    for (const Point& y : points) {
-      const double d2 = (y.at - points[x].at).squaredNorm();
-      if (d2 > largest_squared(radius)) continue;
-      const float* const colour = texture.texel(y.texel);
-      double c2 = 0;
-      for (int c = 0; c < texture.channels; ++c) c2 += std::pow(double(colour[c]) - own[c], 2);
-      double exponent = d2 / (2 * sigma * sigma);
-      if (kind == FilterKind::bilateral) exponent += c2 / (2 * sigma_range * sigma_range);
-      const double w = y.area * std::exp(-exponent);
-      weights += w;
-      for (int c = 0; c < texture.channels; ++c) sum[std::size_t(c)] += w * colour[c];
-    }
-    for (int c = 0; c < texture.channels; ++c, ++count) {
-      squares += std::pow(sum[std::size_t(c)] / weights - result.texel(points[x].texel)[c], 2);
     }
   }
   REQUIRE(count > 0);
@@ -146,9 +104,8 @@ TEST_CASE("a plane filters like the plain 2D filter", "[filter]") {
   const double sigma_texels = GENERATE(1.0, 3.0, 6.5);
   const TriangleMesh mesh = make_plane(3, 2, 1.5, 1);
   const Image texture = noise_image(120, 80);
-  const Image result = filter(mesh, texture, options_for(kind, sigma_texels));
-  const double sigma = sigma_texels * make_texel_map(mesh, 120, 80).median_texel_size();
-  const double db = against_brute_force(mesh, texture, result, kind, sigma, 0.2, 7);
+  const FilterOptions options = options_for(kind, sigma_texels);
+  const double db = error_of_filter(mesh, texture, options, 1000, straight_distances(mesh)).psnr;
   CAPTURE(db);
   CHECK(db > 90);
 }
@@ -157,9 +114,8 @@ TEST_CASE("a stretched plane filters like the 2D filter with stretched distances
   const FilterKind kind = GENERATE(FilterKind::bilateral, FilterKind::gaussian);
   const TriangleMesh mesh = make_plane(2, 2, 3, 1);
   const Image texture = noise_image(90, 90);
-  const Image result = filter(mesh, texture, options_for(kind, 4));
-  const double sigma = 4 * make_texel_map(mesh, 90, 90).median_texel_size();
-  const double db = against_brute_force(mesh, texture, result, kind, sigma, 0.2, 7);
+  const FilterOptions options = options_for(kind, 4);
+  const double db = error_of_filter(mesh, texture, options, 1000, straight_distances(mesh)).psnr;
   CAPTURE(db);
   CHECK(db > 90);
 }

@@ -11,7 +11,8 @@
 #include "onmesh/nodes/bisection.h"
 #include "onmesh/patches/grow_patch.h"
 #include "onmesh/procedural/shapes.h"
-#include "support/brute_force.h"
+#include "support/closed_forms.h"
+#include "support/filter_error.h"
 
 namespace onmesh {
 namespace {
@@ -225,17 +226,8 @@ TEST_CASE("two squares with a bridged gap filter like one plane with that gap", 
     options.bridge = Length{0.04, Length::Unit::mesh};
     options.kind = kind;
     options.distance = method;
-    const double radius = options.kind == FilterKind::bilateral ? 0.2 : 0.24;
-    const Image result = filter(mesh, texture, options);
-    const Distances straight = [&](const SurfacePoint& source,
-                                   const std::vector<SurfacePoint>& targets) {
-      std::vector<double> d;
-      for (const SurfacePoint& t : targets)
-        d.push_back((mesh.position(t) - mesh.position(source)).norm());
-      return d;
-    };
-    const BruteForce out =
-        against_brute_force(mesh, texture, result, options.kind, 0.08, radius, 0.2, 600, straight);
+    const DefinitionError out =
+        error_of_filter(mesh, texture, options, 600, straight_distances(mesh));
     INFO("gap " << gap << ", " << name_of(method));
     // On a plane without gaps heat is no better.
     CHECK(out.psnr > (gap > 0.01 ? 60 : method == DistanceMethod::unfold ? 75 : 70));

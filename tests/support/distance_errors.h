@@ -1,102 +1,41 @@
 // Errors of distance back ends, for their tests.
 #pragma once
 
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
-#include "onmesh/distance/backend.h"
+#include "onmesh/distance/distance_table.h"
 #include "onmesh/distance/exact.h"
 #include "onmesh/patches/grow_patch.h"
 #include "onmesh/patches/partition.h"
-#include "support/simple_shapes.h"
 
 namespace onmesh {
 
-inline double mean_edge(const NodeMesh& mesh) {
-  double sum = 0;
-  for (const auto& l : mesh.lengths) sum += l[0] + l[1] + l[2];
-  return sum / double(3 * mesh.lengths.size());
-}
+double mean_edge(const NodeMesh& mesh);
 
 /// The whole mesh as one patch, nodes with their own numbers.
-inline Patch whole(const NodeMesh& mesh) {
-  Patch patch;
-  patch.nodes.resize(mesh.nodes.size());
-  for (Index i = 0; i < patch.nodes.size(); ++i) patch.nodes[i] = i;
-  patch.core_nodes = Index(patch.nodes.size());
-  patch.faces = simple::all_faces(mesh);
-  patch.core_faces = Index(patch.faces.size());
-  patch.corners = mesh.faces;
-  patch.lengths = mesh.lengths;
-  patch.neighbours = mesh.neighbours;
-  patch.longest_edge = mesh.longest_edge();
-  return patch;
-}
+Patch whole(const NodeMesh& mesh);
 
-inline DistanceTable fill(const DistanceBackend& backend, const Patch& patch, double reach) {
-  DistanceTable table;
-  backend.fill(patch, reach, table);
-  return table;
-}
+DistanceTable fill(const DistanceBackend& backend, const Patch& patch, double reach);
 
 struct Errors {
   double mean = 0, p99 = 0, max = 0;
   std::size_t count = 0;
 };
 
-inline Errors summarise(std::vector<double> errors) {
-  REQUIRE(!errors.empty());
-  std::sort(errors.begin(), errors.end());
-  Errors result{0, errors[errors.size() * 99 / 100], errors.back(), errors.size()};
-  for (const double e : errors) result.mean += e / double(errors.size());
-  return result;
-}
+/// \throw std::logic_error if there are none
+Errors summarise(std::vector<double> errors);
 
-/// |d - truth| for all pairs up to `reach`; every one must have been reached.
-inline Errors compare(const DistanceTable& table, double reach,
-                      const std::function<double(Index, Index)>& truth) {
-  std::vector<double> errors;
-  for (Index i = 0; i < table.rows; ++i)
-    for (Index j = 0; j < table.columns; ++j) {
-      const double d = truth(i, j);
-      if (d > reach) continue;
-      REQUIRE(table.row(i)[j] != kUnreachable);
-      errors.push_back(std::abs(std::sqrt(double(table.row(i)[j])) - d));
-    }
-  return summarise(errors);
-}
+/// |d - truth| for all pairs up to `reach`.
+/// \throw std::logic_error if one of them was not reached
+Errors compare(const DistanceTable& table, double reach,
+               const std::function<double(Index, Index)>& truth);
 
 /// Errors of a back end against exact distances in units of the mean edge length, for every
 /// `stride`-th node, as the filter would ask: patch by patch.
-inline Errors against_exact(const DistanceBackend& backend, const TriangleMesh& mesh, double radius,
-                            Index stride) {
-  const NodeMesh nodes = make_node_mesh(mesh);
-  const double h = mean_edge(nodes), reach = radius * h;
-  const auto exact = make_exact(mesh, nodes);
-  std::vector<double> errors;
-  for (const auto& core : partition_faces(nodes, std::vector<double>(nodes.faces.size(), 1), 400)) {
-    const Patch patch =
-        grow_patch(nodes, core, reach + backend.margin(reach, nodes.longest_edge()));
-    const DistanceTable table = fill(backend, patch, reach);
-    for (Index i = 0; i < patch.core_nodes; i += stride) {
-      // This node as the only source, in front of all targets.
-      Patch one;
-      one.core_nodes = 1;
-      one.nodes = patch.nodes;
-      one.nodes.insert(one.nodes.begin(), patch.nodes[i]);
-      const DistanceTable truth = fill(*exact, one, reach);
-      for (Index j = 0; j < patch.nodes.size(); ++j) {
-        const float d2 = truth.row(0)[j + 1];
-        if (d2 == kUnreachable || std::sqrt(double(d2)) > reach) continue;
-        REQUIRE(table.row(i)[j] != kUnreachable);
-        errors.push_back(std::abs(std::sqrt(double(table.row(i)[j])) - std::sqrt(double(d2))) / h);
-      }
-    }
-  }
-  return summarise(errors);
-}
+/// \throw std::logic_error if a node within reach was not reached
+Errors against_exact(const DistanceBackend& backend, const TriangleMesh& mesh, double radius,
+                     Index stride);
 
 }  // namespace onmesh

@@ -1,30 +1,17 @@
 // Runs the onmesh program as a user does, in a folder of its own.
 #pragma once
 
-#include <sys/wait.h>
-
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "support/paths.h"
 #include "support/temp_folder.h"
 
 namespace onmesh {
 
-inline std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot open " + path.string());
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+std::string content_of(const std::filesystem::path& path);
 
 struct Run {
   int code = -1;  ///< exit code; -signal if it was killed
@@ -35,26 +22,9 @@ struct Run {
 class Workspace {
  public:
   /// Arguments as in a shell, relative paths within the folder.
-  Run run(const std::string& arguments) const {
-    const std::string streams = (logs_.path() / "log").string();
-    const std::string command = "cd '" + folder_.path().string() + "' && exec '" +
-                                program().string() + "' " + arguments + " >'" + streams +
-                                ".out' 2>'" + streams + ".err' </dev/null";
-    const int status = std::system(command.c_str());
-    Run run;
-    run.code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-    run.out = content_of(streams + ".out");
-    run.err = content_of(streams + ".err");
-    return run;
-  }
-  /// The same where success is taken for granted.
-  Run must(const std::string& arguments) const {
-    Run result = run(arguments);
-    if (result.code != 0)
-      throw std::runtime_error("onmesh " + arguments + " failed (" + std::to_string(result.code) +
-                               "): " + result.err);
-    return result;
-  }
+  Run run(const std::string& arguments) const;
+  /// The same where success is taken for granted. \throw std::runtime_error if there is none
+  Run must(const std::string& arguments) const;
 
   std::filesystem::path operator/(const std::string& name) const { return folder_.path() / name; }
   std::filesystem::path file(const std::string& name, const std::string& content) const {
@@ -62,57 +32,13 @@ class Workspace {
   }
   bool has(const std::string& name) const { return std::filesystem::exists(*this / name); }
   /// Names of all files, so that a test can tell whether something was left behind.
-  std::vector<std::string> files() const {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
-      names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
-  }
+  std::vector<std::string> files() const;
 
  private:
   TempFolder folder_, logs_;
 };
 
 /// The vertex properties of a PLY as the program writes it (binary, double and int columns).
-inline std::map<std::string, std::vector<double>> ply_columns(const std::filesystem::path& path) {
-  const std::string content = content_of(path);
-  const std::size_t body = content.find("end_header\n") + 11;
-  std::istringstream header(content.substr(0, body));
-  std::vector<std::pair<std::string, std::string>> properties;
-  std::size_t count = 0;
-  std::string line, word, type, name;
-  bool vertices = false;
-  while (std::getline(header, line)) {
-    std::istringstream words(line);
-    words >> word;
-    if (word == "element") {
-      words >> name;
-      vertices = name == "vertex";
-      if (vertices) words >> count;
-    } else if (word == "property" && vertices) {
-      words >> type >> name;
-      properties.emplace_back(type, name);
-    }
-  }
-  std::map<std::string, std::vector<double>> columns;
-  const char* at = content.data() + body;
-  for (std::size_t i = 0; i < count; ++i) {
-    for (const auto& [kind, column] : properties) {
-      if (kind == "double") {
-        double value = 0;
-        std::memcpy(&value, at, sizeof value);
-        columns[column].push_back(value);
-        at += sizeof value;
-      } else {
-        std::int32_t value = 0;
-        std::memcpy(&value, at, sizeof value);
-        columns[column].push_back(value);
-        at += sizeof value;
-      }
-    }
-  }
-  return columns;
-}
+std::map<std::string, std::vector<double>> ply_columns(const std::filesystem::path& path);
 
 }  // namespace onmesh

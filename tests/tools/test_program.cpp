@@ -1,5 +1,7 @@
 // The program's manners: help, messages, exit codes, what it leaves behind.
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
 
 #include "tools/tool_checks.h"
 

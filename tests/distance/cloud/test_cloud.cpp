@@ -16,8 +16,9 @@
 #include "onmesh/patches/partition.h"
 #include "onmesh/procedural/shapes.h"
 #include "onmesh/procedural/texture.h"
-#include "support/brute_force.h"
 #include "support/distance_errors.h"
+#include "support/exact_distances.h"
+#include "support/filter_error.h"
 #include "support/simple_shapes.h"
 
 namespace onmesh {
@@ -171,8 +172,8 @@ TEST_CASE("cloud filters a book close to the definition", "[cloud][accuracy]") {
             std::copy_n(values, channels, result.texel(samples.samples[target].texel));
         },
         [](double) {});
-    const BruteForce error =
-        against_brute_force(mesh, texture, result, kind, sigma, radius, 0.2, 200, truth);
+    const DefinitionError error =
+        against_definition(mesh, texture, result, {sigma, radius, bilateral ? 0.2 : 0}, 200, truth);
     CAPTURE(bilateral, error.psnr);
     CHECK(error.psnr > (bilateral ? 76 : 67));
   }
@@ -195,14 +196,9 @@ TEST_CASE("cloud filters close to the definition", "[cloud][accuracy]") {
     options.sigma_range = 0.2;
     options.distance = DistanceMethod::cloud;
     FilterReport report;
-    const Image result = filter(mesh, texture, options, &report);
+    const DefinitionError error =
+        error_of_filter(mesh, texture, options, 60, exact_distances(mesh, 2), &report);
     CHECK(report.backend == "cloud");
-    ExactGeodesics exact(mesh);
-    const BruteForce error = against_brute_force(
-        mesh, texture, result, options.kind, report.sigma_spatial, report.radius, 0.2, 60,
-        [&](const SurfacePoint& source, const auto& targets) {
-          return exact.distances(source, targets);
-        });
     CAPTURE(name, error.psnr);
     CHECK(error.psnr > least);
   }
