@@ -45,7 +45,7 @@ double psnr_exact(const TriangleMesh& mesh, int size, const Case& c) {
 
 }  // namespace
 
-TEST_CASE("the filter is right on a cone with a quarter missing", "[accuracy]") {
+TEST_CASE("the filter is right on a cone with a quarter missing", "[accuracy][slow]") {
   const TriangleMesh cone = make_cone(270, 36, 4);
   const Distances distances = cone_distances(cone, 270);
   for (const double sigma : {3.0, 8.0, 16.0}) {
@@ -54,12 +54,12 @@ TEST_CASE("the filter is right on a cone with a quarter missing", "[accuracy]") 
   }
 }
 
-TEST_CASE("the filter is right on a sphere", "[accuracy]") {
+TEST_CASE("the filter is right on a sphere", "[accuracy][slow]") {
   CHECK(psnr_exact(make_sphere(3), 192, {FilterKind::gaussian, 8}) > 78);
   CHECK(psnr_exact(make_sphere(2), 192, {FilterKind::bilateral, 12}) > 83);
 }
 
-TEST_CASE("the filter is right on a torus", "[accuracy]") {
+TEST_CASE("the filter is right on a torus", "[accuracy][slow]") {
   CHECK(psnr_exact(make_torus(32, 16), 192, {FilterKind::gaussian, 8}) > 67);
   CHECK(psnr_exact(make_torus(32, 16), 192, {FilterKind::bilateral, 8}) > 78);
 }
@@ -69,24 +69,24 @@ TEST_CASE("the filter is right on a cube", "[accuracy]") {
   CHECK(psnr_exact(make_cube(1), 192, {FilterKind::bilateral, 8, 50.0 / 255}) > 76);
 }
 
-TEST_CASE("the filter is right on a saddle", "[accuracy]") {
+TEST_CASE("the filter is right on a saddle", "[accuracy][slow]") {
   CHECK(psnr_exact(make_saddle(16), 128, {FilterKind::gaussian, 8}) > 90);
   CHECK(psnr_exact(make_saddle(16), 128, {FilterKind::bilateral, 8}) > 90);
 }
 
-TEST_CASE("the filter is right on a bumpy surface", "[accuracy]") {
+TEST_CASE("the filter is right on a bumpy surface", "[accuracy][slow]") {
   CHECK(psnr_exact(make_blob(3, 1), 192, {FilterKind::gaussian, 8}) > 74);
   CHECK(psnr_exact(make_blob(3, 1), 192, {FilterKind::bilateral, 8}) > 87);
 }
 
-TEST_CASE("the heat back end filters close to the definition", "[accuracy]") {
+TEST_CASE("the heat back end filters close to the definition", "[accuracy][slow]") {
   Case heat{FilterKind::bilateral, 8};
   heat.distance = DistanceMethod::heat;
   CHECK(psnr_exact(make_sphere(3), 192, heat) > 85);
   CHECK(psnr_exact(make_torus(32, 16), 192, heat) > 76);
 }
 
-TEST_CASE("finer nodes bring the filter closer to the definition", "[accuracy]") {
+TEST_CASE("finer nodes bring the filter closer to the definition", "[accuracy][slow]") {
   const TriangleMesh mesh = make_cube(1);
   double before = 65;  // dB
   for (const double spacing : {16.0, 8.0, 4.0}) {
@@ -98,7 +98,8 @@ TEST_CASE("finer nodes bring the filter closer to the definition", "[accuracy]")
   }
 }
 
-TEST_CASE("a small chart on a large surface needs few nodes and filters as well", "[accuracy]") {
+TEST_CASE("a small chart on a large surface needs few nodes and filters as well",
+          "[accuracy][slow]") {
   TriangleMesh mesh = make_blob(3, 1);
   const Image texture = noisy_checker(192, 192);
   FilterOptions options;

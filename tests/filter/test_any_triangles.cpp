@@ -23,8 +23,6 @@ double psnr_against(const TriangleMesh& mesh, const Image& texture, FilterKind k
                     DistanceMethod method = DistanceMethod::unfold) {
   const FilterOptions options = options_in_mesh_units(kind, sigma, method);
   const DefinitionError error = error_of_filter(mesh, texture, options, 500, distances, report);
-  WARN("psnr " << mesh.faces.size() << " " << int(kind) << " " << sigma << " " << int(method)
-               << ": " << error.psnr << " worst " << error.worst);
   return error.psnr;
 }
 
