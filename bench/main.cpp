@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "onmesh/kernel/direct/direct_kernel.h"
-#include "scaling/bench_scaling.h"
+#include "scaling/families.h"
 #include "scaling/planar_filter.h"
 
 namespace {

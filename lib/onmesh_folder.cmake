@@ -8,9 +8,10 @@
 # CGAL are sources that include CGAL, which adds -frounding-math to whatever links it and takes 20 s
 # a file: they are compiled apart.
 # PUBLIC_HEADERS are installed and must compile by themselves without DEPENDS; all others are
-# private.
+# private. They are noted in the build folder's `public_headers.txt`, for the tests.
 
 set_property(GLOBAL PROPERTY ONMESH_FOLDERS "")
+set_property(GLOBAL PROPERTY ONMESH_PUBLIC_HEADERS "")
 file(WRITE ${PROJECT_BINARY_DIR}/folder_uses.txt "")
 
 function(onmesh_folder name)
@@ -36,7 +37,9 @@ function(onmesh_folder name)
     onmesh_objects(onmesh_${name}_cgal ${arg_CGAL})
     target_link_libraries(onmesh_${name}_cgal PRIVATE CGAL::CGAL ${arg_DEPENDS})
   endif()
-  list(TRANSFORM arg_PUBLIC_HEADERS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  list(TRANSFORM arg_PUBLIC_HEADERS PREPEND onmesh/${name}/)
+  set_property(GLOBAL APPEND PROPERTY ONMESH_PUBLIC_HEADERS ${arg_PUBLIC_HEADERS})
+  list(TRANSFORM arg_PUBLIC_HEADERS PREPEND ${PROJECT_SOURCE_DIR}/lib/)
   target_sources(onmesh PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/lib
     FILES ${arg_PUBLIC_HEADERS})
 endfunction()

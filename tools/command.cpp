@@ -1,20 +1,14 @@
 #include "command.h"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
-#include <cmath>
 #include <iostream>
 #include <numeric>
+#include <utility>
+
+#include "onmesh/base/error.h"
 
 namespace onmesh::tools {
 namespace {
-
-// "--name", or "-n" for names of one letter.
-std::string dashed(const std::string& name) {
-  if (!name.empty() && name[0] == '-') return name;
-  return (name.size() == 1 ? "-" : "--") + name;
-}
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -86,19 +80,19 @@ void check_values_follow(const po::options_description& options,
   }
 }
 
-double parse_plain_number(const std::string& flag, const std::string& whole,
-                          std::string_view text) {
-  double value = 0;
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    throw UsageError(dashed(flag) + ": '" + whole + "' is not a finite number");
-  return value;
-}
-
-std::string compact(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+po::parsed_options parse_all(const po::options_description& options,
+                             const po::positional_options_description& positional,
+                             const std::vector<std::string>& arguments) {
+  namespace style = po::command_line_style;
+  const int unix_without_guessing = style::allow_short | style::short_allow_adjacent |
+                                    style::short_allow_next | style::allow_long |
+                                    style::long_allow_adjacent | style::long_allow_next |
+                                    style::allow_dash_for_short;
+  return po::command_line_parser(arguments)
+      .options(options)
+      .positional(positional)
+      .style(unix_without_guessing)
+      .run();
 }
 
 }  // namespace
@@ -112,31 +106,24 @@ po::typed_value<std::vector<std::string>>* texts() {
 }
 po::typed_value<bool>* flag() { return po::bool_switch(); }
 
-bool parse(const Command& command, const std::vector<std::string>& arguments,
-           po::variables_map& values) {
+std::optional<Arguments> parse(const Command& command, const std::vector<std::string>& arguments) {
   po::options_description options;
   options.add(command.options);
   options.add_options()("help,h", "show this help");
   check_values_follow(options, arguments);
+  const std::string usage = command.name + " " + command.synopsis;
   try {
-    namespace style = po::command_line_style;
-    const int unix_without_guessing = style::allow_short | style::short_allow_adjacent |
-                                      style::short_allow_next | style::allow_long |
-                                      style::long_allow_adjacent | style::long_allow_next |
-                                      style::allow_dash_for_short;
-    const po::parsed_options parsed = po::command_line_parser(arguments)
-                                          .options(options)
-                                          .positional(command.positional)
-                                          .style(unix_without_guessing)
-                                          .run();
+    const po::parsed_options parsed = parse_all(options, command.positional, arguments);
     for (const auto& option : parsed.options) {
       if (option.string_key == "help") {
         print_help(command);
-        return false;
+        return std::nullopt;
       }
     }
+    po::variables_map values;
     po::store(parsed, values);
     po::notify(values);
+    return Arguments(usage, std::move(values));
   } catch (const po::unknown_option& error) {
     throw UsageError(unknown_option(options, error.get_option_name()));
   } catch (const po::multiple_occurrences& error) {
@@ -144,7 +131,7 @@ bool parse(const Command& command, const std::vector<std::string>& arguments,
     throw UsageError(name.empty() ? "an argument is given twice"
                                   : "option '" + name + "' is given twice");
   } catch (const po::too_many_positional_options_error&) {
-    throw UsageError("too many arguments; usage: onmesh " + command.name + " " + command.synopsis);
+    throw UsageError("too many arguments; usage: onmesh " + usage);
   } catch (const po::invalid_command_line_syntax& error) {
     const bool extra = error.kind() == po::invalid_command_line_syntax::extra_parameter;
     throw UsageError("option '" + error.get_option_name() +
@@ -152,75 +139,6 @@ bool parse(const Command& command, const std::vector<std::string>& arguments,
   } catch (const po::error& error) {
     throw UsageError(error.what());
   }
-  return true;
-}
-
-bool has(const po::variables_map& values, const std::string& name) {
-  return values.count(name) > 0;
-}
-
-std::string text_of(const po::variables_map& values, const std::string& name) {
-  if (!has(values, name)) throw UsageError(dashed(name) + " is missing");
-  const auto value = values[name].as<std::string>();
-  if (value.empty()) throw UsageError(dashed(name) + ": is empty");
-  return value;
-}
-
-std::string argument_of(const Command& command, const po::variables_map& values,
-                        const std::string& name) {
-  const std::string value = has(values, name) ? values[name].as<std::string>() : "";
-  if (!value.empty()) return value;
-  std::string upper = name;
-  for (char& c : upper) c = char(std::toupper(static_cast<unsigned char>(c)));
-  throw UsageError(upper + " is missing; usage: onmesh " + command.name + " " + command.synopsis);
-}
-
-std::vector<std::string> texts_of(const po::variables_map& values, const std::string& name) {
-  if (!has(values, name)) return {};
-  const auto list = values[name].as<std::vector<std::string>>();
-  for (const std::string& value : list) {
-    if (value.empty()) throw UsageError(dashed(name) + ": is empty");
-  }
-  return list;
-}
-
-bool flag_of(const po::variables_map& values, const std::string& name) {
-  return values[name].as<bool>();
-}
-
-double number_of(const po::variables_map& values, const std::string& name, double low,
-                 double high) {
-  const std::string value = text_of(values, name);
-  const double number = parse_number(name, value);
-  if (number < low || number > high)
-    throw UsageError(dashed(name) + ": " + value + " is not between " + compact(low) + " and " +
-                     compact(high));
-  return number;
-}
-
-std::int64_t integer_of(const po::variables_map& values, const std::string& name, std::int64_t low,
-                        std::int64_t high) {
-  const std::string value = text_of(values, name);
-  std::int64_t number = 0;
-  const char* last = value.data() + value.size();
-  const auto [end, error] = std::from_chars(value.data(), last, number);
-  if (error == std::errc::invalid_argument || end != last)
-    throw UsageError(dashed(name) + ": '" + value + "' is not a whole number");
-  if (error != std::errc() || number < low || number > high)
-    throw UsageError(dashed(name) + ": " + value + " is not between " + std::to_string(low) +
-                     " and " + std::to_string(high));
-  return number;
-}
-
-double parse_number(const std::string& flag, const std::string& text) {
-  const std::size_t slash = text.find('/');
-  if (slash == std::string::npos) return parse_plain_number(flag, text, text);
-  const std::string_view view = text;
-  const double value = parse_plain_number(flag, text, view.substr(0, slash)) /
-                       parse_plain_number(flag, text, view.substr(slash + 1));
-  if (!std::isfinite(value))
-    throw UsageError(dashed(flag) + ": '" + text + "' is not a finite number");
-  return value;
 }
 
 std::optional<std::string> nearest_name(const std::string& name,

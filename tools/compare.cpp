@@ -1,18 +1,23 @@
 // onmesh compare: how two textures differ, and how visible their seams are.
-#include "onmesh/measure/image_difference.h"
-
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "command.h"
-#include "inputs.h"
+#include "format.h"
+#include "interruption.h"
+#include "messages.h"
+#include "onmesh/base/text.h"
+#include "onmesh/image/image_io.h"
+#include "onmesh/measure/image_difference.h"
+#include "onmesh/measure/seam_error.h"
+#include "report.h"
+#include "shared_options.h"
+#include "subcommands.h"
 #include "texture_choice.h"
 
 namespace onmesh::tools {
-namespace {
 
-Command make_command() {
+Command compare_command() {
   Command command;
   command.name = "compare";
   command.synopsis = "A B [--mesh MESH] [--fail DB] [options]";
@@ -37,11 +42,13 @@ Command make_command() {
   return command;
 }
 
+namespace {
+
 Image read_other(const std::string& path, const std::string& first, const Image& like) {
   Image image = read_image(path);
   const auto size = [](const Image& i) {
     return std::to_string(i.width) + " x " + std::to_string(i.height) + " with " +
-           std::to_string(i.channels) + (i.channels == 1 ? " channel" : " channels");
+           count_text(std::uint64_t(i.channels), "channel", "channels");
   };
   if (size(image) != size(like))
     throw InputError(path + ": " + size(image) + " cannot be compared with " + first + ": " +
@@ -65,98 +72,115 @@ std::vector<bool> faces_wearing(const TriangleMesh& mesh, const std::string& a,
   }
 }
 
-nlohmann::json to_json(const SeamError& s) {
-  return {{"edges", s.edges}, {"length", s.length}, {"rms", s.rms}, {"max", s.max}};
+struct Comparison {
+  ImageDifference difference;
+  std::optional<SeamError> seams_a, seams_b;  ///< with a mesh
+};
+
+/// On the texels that the mesh's charts cover, and at its seams.
+Comparison compare_on_mesh(const Arguments& arguments, const Image& a, const Image& b) {
+  const InputMesh input = read_input_mesh(arguments.text("mesh"));
+  warn(input.warnings);
+  check_interrupted();
+  const std::vector<bool> faces =
+      faces_wearing(input.cleaned, arguments.argument("a"), arguments.argument("b"),
+                    arguments.optional_text("material"));
+  return naming(input, [&] {
+    const TexelMap map =
+        make_texel_map(input.cleaned, a.width, a.height, {wrap_of(arguments), faces});
+    if (map.claims.empty()) throw InputError("no texel is covered, so there is nothing to compare");
+    Comparison result;
+    result.difference = difference(a, b, &map);
+    check_interrupted();
+    result.seams_a = seam_error(input.cleaned, map, a);
+    result.seams_b = seam_error(input.cleaned, map, b);
+    return result;
+  });
+}
+
+nlohmann::json comparison_json(const Comparison& result, int width) {
+  const ImageDifference& d = result.difference;
+  return {{"texels", d.texels},
+          {"equal", d.max == 0},
+          {"psnr", d.psnr},
+          {"rms", d.rms},
+          {"max", d.max},
+          {"worst_texel", {d.worst_texel % Index(width), d.worst_texel / Index(width)}},
+          {"seams_a", result.seams_a ? to_json(*result.seams_a) : nlohmann::json()},
+          {"seams_b", result.seams_b ? to_json(*result.seams_b) : nlohmann::json()}};
+}
+
+void print_json(const Arguments& arguments, const Image& a, const Comparison& result,
+                std::optional<double> least, bool passed) {
+  nlohmann::json json = new_report("compare");
+  json["a"] = arguments.argument("a");
+  json["b"] = arguments.argument("b");
+  json["mesh"] = text_or_null(arguments.optional_text("mesh").value_or(""));
+  json["width"] = a.width;
+  json["height"] = a.height;
+  json["channels"] = a.channels;
+  json.update(comparison_json(result, a.width));
+  json["fail"] = least ? nlohmann::json(*least) : nlohmann::json();
+  json["passed"] = passed;
+  print_report(std::move(json));
 }
 
 void row(const char* name, const std::string& value) {
   std::cout << std::left << std::setw(14) << name << value << '\n';
 }
 
+void seam_row(const char* name, const std::optional<SeamError>& s) {
+  if (!s) return;
+  row(name, "rms " + format_number(s->rms) + ", max " + format_number(s->max) + " over " +
+                format_count(s->edges) + " edges");
+}
+
+void print_text(const Comparison& result, int width) {
+  const ImageDifference& d = result.difference;
+  row("texels", format_count(d.texels));
+  row("PSNR", d.max == 0 ? "infinite, all are equal" : format_number(d.psnr) + " dB");
+  row("rms error", format_number(d.rms));
+  std::string worst = format_number(d.max);
+  if (d.max > 0) {
+    worst += " at column " + std::to_string(d.worst_texel % Index(width)) + ", row " +
+             std::to_string(d.worst_texel / Index(width));
+  }
+  row("max error", worst);
+  seam_row("seams of A", result.seams_a);
+  seam_row("seams of B", result.seams_b);
+}
+
 }  // namespace
 
-int run_compare(const std::vector<std::string>& arguments) {
-  const Command command = make_command();
-  po::variables_map values;
-  if (!parse(command, arguments, values)) return 0;
-  const std::string path_a = argument_of(command, values, "a");
-  const std::string path_b = argument_of(command, values, "b");
+int run_compare(const Arguments& arguments) {
+  const std::string path_a = arguments.argument("a"), path_b = arguments.argument("b");
   std::optional<double> least;
-  if (has(values, "fail")) least = number_of(values, "fail", -1000, 1000);
-  for (const std::string name : {"wrap", "seams", "material"}) {
-    const bool given =
-        name == "seams" ? flag_of(values, name) : has(values, name) && !values[name].defaulted();
-    if (given && !has(values, "mesh")) throw UsageError("--" + name + " needs --mesh");
-  }
-  const Wrap wrap = wrap_of(values);
+  if (arguments.has("fail")) least = arguments.number("fail", -1000, 1000);
+  arguments.require_with({"wrap", "seams", "material"}, "mesh");
+  wrap_of(arguments);
 
   const Image a = read_image(path_a);
   const Image b = read_other(path_b, path_a, a);
   check_interrupted();
-  ImageDifference result;
-  std::optional<SeamError> seams_a, seams_b;
-  if (has(values, "mesh")) {
-    const InputMesh input = read_input_mesh(text_of(values, "mesh"));
-    warn(input.warnings);
-    check_interrupted();
-    const std::vector<bool> faces =
-        faces_wearing(input.cleaned, path_a, path_b, optional_text(values, "material"));
-    naming(input.path, [&] {
-      const TexelMap map = make_texel_map(input.cleaned, a.width, a.height, {wrap, faces});
-      if (map.claims.empty())
-        throw InputError("no texel is covered, so there is nothing to compare");
-      result = difference(a, b, &map);
-      check_interrupted();
-      seams_a = seam_error(input.cleaned, map, a);
-      seams_b = seam_error(input.cleaned, map, b);
-    });
+  Comparison result;
+  if (arguments.has("mesh")) {
+    result = compare_on_mesh(arguments, a, b);
   } else {
-    result = naming(path_b, [&] { return difference(a, b); });
+    result.difference = naming(path_b, [&] { return difference(a, b); });
   }
   check_interrupted();
 
-  const Index column = result.worst_texel % Index(a.width);
-  const Index line = result.worst_texel / Index(a.width);
-  const bool passed = !least || result.psnr >= *least;
-  if (flag_of(values, "json")) {
-    nlohmann::json json = new_report("compare");
-    json["a"] = path_a;
-    json["b"] = path_b;
-    json["mesh"] = has(values, "mesh") ? nlohmann::json(text_of(values, "mesh")) : nlohmann::json();
-    json["width"] = a.width;
-    json["height"] = a.height;
-    json["channels"] = a.channels;
-    json["texels"] = result.texels;
-    json["equal"] = result.max == 0;
-    json["psnr"] = result.psnr;
-    json["rms"] = result.rms;
-    json["max"] = result.max;
-    json["worst_texel"] = {column, line};
-    json["seams_a"] = seams_a ? to_json(*seams_a) : nlohmann::json();
-    json["seams_b"] = seams_b ? to_json(*seams_b) : nlohmann::json();
-    json["fail"] = least ? nlohmann::json(*least) : nlohmann::json();
-    json["passed"] = passed;
-    print_report(std::move(json));
+  const bool passed = !least || result.difference.psnr >= *least;
+  if (arguments.flag("json")) {
+    print_json(arguments, a, result, least, passed);
   } else {
-    row("texels", format_count(result.texels));
-    row("PSNR", result.max == 0 ? "infinite, all are equal" : format_number(result.psnr) + " dB");
-    row("rms error", format_number(result.rms));
-    std::string worst = format_number(result.max);
-    if (result.max > 0)
-      worst += " at column " + std::to_string(column) + ", row " + std::to_string(line);
-    row("max error", worst);
-    const auto seam_row = [](const char* name, const SeamError& s) {
-      row(name, "rms " + format_number(s.rms) + ", max " + format_number(s.max) + " over " +
-                    format_count(s.edges) + " edges");
-    };
-    if (seams_a) seam_row("seams of A", *seams_a);
-    if (seams_b) seam_row("seams of B", *seams_b);
+    print_text(result, a.width);
   }
   if (passed) return 0;
   std::cout.flush();
   std::cerr << "onmesh compare: " << path_b << " differs from " << path_a << ": PSNR "
-            << format_number(result.psnr) << " dB is below --fail " << text_of(values, "fail")
-            << '\n';
+            << format_number(result.difference.psnr) << " dB is below --fail "
+            << arguments.text("fail") << '\n';
   return 1;
 }
 

@@ -1,27 +1,26 @@
 // onmesh distance: geodesic distances from one point, per vertex and per texel.
-#include "onmesh/distance/backend.h"
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iostream>
-#include <limits>
 #include <nlohmann/json.hpp>
 
-#include "command.h"
 #include "distance_compare.h"
-#include "inputs.h"
+#include "distance_request.h"
+#include "format.h"
+#include "interruption.h"
+#include "messages.h"
 #include "onmesh/distance/make_backend.h"
-#include "onmesh/filter/length.h"
+#include "onmesh/image/image_io.h"
+#include "onmesh/measure/nearby_geodesics.h"
 #include "onmesh/mesh_io/write_ply.h"
 #include "onmesh/nodes/bridge.h"
+#include "report.h"
+#include "stopwatch.h"
+#include "subcommands.h"
 
 namespace onmesh::tools {
-namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Command make_command() {
+Command distance_command() {
   Command command;
   command.name = "distance";
   command.synopsis = "MESH (--vertex N | --uv U,V | --point X,Y,Z) [-o OUT.ply] [options]";
@@ -68,96 +67,69 @@ Command make_command() {
   return command;
 }
 
-std::vector<double> parse_numbers(const po::variables_map& values, const std::string& name,
-                                  std::size_t count) {
-  const std::string whole = text_of(values, name);
-  std::vector<double> numbers;
-  std::size_t begin = 0;
-  for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
-    comma = whole.find(',', begin);
-    numbers.push_back(parse_number(name, whole.substr(begin, comma - begin)));
-  }
-  if (numbers.size() != count)
-    throw UsageError("--" + name + ": '" + whole + "' is not " + std::to_string(count) +
-                     " numbers with commas between them");
-  return numbers;
-}
+namespace {
 
-// What was asked for, checked as far as that goes without the mesh.
-struct Request {
-  DistanceMethod method = DistanceMethod::automatic;
-  std::optional<Length> radius, spacing, sigma, bridge;
-  bool compare = false, compare_all = false, needs_nodes = false, needs_atlas = false;
+/// The nodes that distances run between; empty if none are needed.
+struct Nodes {
+  NodeSurface surface;
+  bool bisected = false;
+  Index bridges = 0;
 };
 
-Request read_request(const po::variables_map& values) {
-  if (has(values, "vertex") + has(values, "uv") + has(values, "point") != 1)
-    throw UsageError("give one of --vertex, --uv and --point");
-  Request request;
-  try {
-    request.method = distance_method(text_of(values, "distance"));
-  } catch (const UsageError& error) {
-    throw UsageError(std::string("--distance: ") + error.what());
+Nodes make_nodes(const InputMesh& input, const DistanceLengths& lengths) {
+  RefineOptions options;
+  options.spacing = lengths.spacing;
+  options.flat_faces = lengths.bridge > 0;
+  check_spacing(input.cleaned, lengths.spacing);
+  Nodes nodes;
+  RefineReport refined;
+  nodes.surface =
+      naming(input.path, [&] { return refine(input.cleaned, input.cleaning, options, &refined); });
+  nodes.bisected = refined.bisected;
+  if (lengths.bridge > 0) {
+    nodes.bridges = add_bridges(input.cleaned, lengths.bridge, nodes.surface);
   }
-  const bool exact = request.method == DistanceMethod::exact;
-  if (has(values, "compare")) {
-    const std::string with = text_of(values, "compare");
-    if (with != "exact" && with != "all")
-      throw UsageError("--compare: '" + with + "' is neither exact nor all");
-    request.compare_all = with == "all";
-    if (exact && !request.compare_all)
-      throw UsageError("--compare exact needs another back end than --distance exact");
-    request.compare = true;
-  }
-  request.bridge = bridge_of(values);
-  if (request.bridge) {
-    if (request.compare)
-      throw UsageError("--bridge: exact distances know none, so not with --compare");
-    if (exact)
-      throw UsageError("--bridge: exact distances know none, so not with --distance exact");
-    request.needs_atlas |= request.bridge->unit == Length::Unit::texel;
-  }
-  request.needs_nodes = !exact || request.compare || has(values, "nodes-ply");
-  const std::pair<const char*, std::optional<Length>*> lengths[] = {
-      {"radius", &request.radius}, {"spacing", &request.spacing}, {"sigma", &request.sigma}};
-  for (const auto& [name, length] : lengths) {
-    if (!has(values, name)) continue;
-    *length = parse_length(std::string("--") + name, text_of(values, name));
-    request.needs_atlas |= (*length)->unit == Length::Unit::texel;
-  }
-  if (request.spacing && !request.needs_nodes)
-    throw UsageError("--spacing: --distance exact needs no nodes, unless --nodes-ply writes them");
-  if (request.sigma && !request.compare) throw UsageError("--sigma is of use only with --compare");
-  request.needs_atlas |= has(values, "texture");
-  const bool has_size = has(values, "atlas") || has(values, "resolution");
-  if (has_size && !request.needs_atlas)
-    throw UsageError(std::string(has(values, "atlas") ? "-t" : "--resolution") +
-                     " is of use only with --texture or lengths in tx");
-  for (const char* name : {"output", "nodes-ply"}) {
-    if (has(values, name)) check_writable_file(text_of(values, name));
-  }
-  if (has(values, "texture")) {
-    const std::string path = text_of(values, "texture");
-    const std::string extension = lower_extension(path);
-    if (extension != ".exr" && extension != ".tif" && extension != ".tiff")
-      throw UsageError("--texture: " + path +
-                       " must end in .exr or .tif, other formats hold no distances");
-    check_writable_image(path, make_image(1, 1, 1));
-  }
-  wrap_of(values);
-  return request;
+  return nodes;
 }
 
-DistanceSource find_source(const po::variables_map& values, const InputMesh& input) {
-  if (has(values, "vertex")) {
-    return source_at_vertex(input, integer_of(values, "vertex", 0, INT64_MAX));
+/// Everything that is told in the end.
+struct DistanceResult {
+  DistanceSource source;
+  std::string backend;
+  std::vector<double> distances;  ///< per node, or per vertex if there are no nodes
+  std::size_t reached = 0;        ///< vertices
+  double farthest = 0;
+  std::optional<DistanceError> error;  ///< of the distances
+  std::vector<ComparedBackend> compared;
+  nlohmann::json seconds;  ///< of the steps
+};
+
+/// Distances at the nodes, which start with the mesh's vertices, or at the vertices alone.
+std::vector<double> exact_distances(const TriangleMesh& mesh, const NodeSurface& surface,
+                                    const DistanceSource& source, double radius) {
+  const std::vector<SurfacePoint>& nodes = surface.nodes.nodes;
+  return NearbyGeodesics(mesh, radius)
+      .distances(source.point, nodes.empty() ? make_node_mesh(mesh).nodes : nodes);
+}
+
+/// Sets what the request wants to know about errors.
+void compare(const DistanceRequest& request, const TriangleMesh& mesh, const NodeSurface& surface,
+             const DistanceLengths& lengths, DistanceResult& result) {
+  const std::vector<double> truth =
+      request.exact() ? result.distances
+                      : exact_distances(mesh, surface, result.source, lengths.radius);
+  if (!request.exact()) result.error = distance_error(truth, result.distances, lengths.sigma);
+  if (request.compare_all) {
+    result.compared =
+        compare_backends(mesh, surface, result.source, truth, lengths.radius, lengths.sigma);
   }
-  if (has(values, "uv")) {
-    const auto uv = parse_numbers(values, "uv", 2);
-    return source_at_uv(input.cleaned, {uv[0], uv[1]});
-  }
-  const auto p = parse_numbers(values, "point", 3);
-  return naming(input.path, [&] { return source_at_point(input.cleaned, {p[0], p[1], p[2]}); });
+}
+
+void write_texture(const std::string& path, const Image& image) {
+  check_interrupted();
+  std::vector<std::string> warnings;
+  write_image(path, image, {}, &warnings);
+  warn(warnings);
 }
 
 void write_vertices(const std::string& path, const InputMesh& input,
@@ -182,18 +154,22 @@ void write_nodes(const std::string& path, const TriangleMesh& mesh, const NodeMe
   write_ply(path, columns, nodes.faces, {"nodes with geodesic distances by onmesh"});
 }
 
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+void write_plys(const Arguments& arguments, const InputMesh& input, const NodeSurface& surface,
+                const std::vector<double>& distances) {
+  if (arguments.has("nodes-ply"))
+    write_nodes(arguments.text("nodes-ply"), input.cleaned, surface.nodes, distances);
+  if (arguments.has("output")) write_vertices(arguments.text("output"), input, distances);
+}
+
+void count_reached(std::size_t vertices, DistanceResult& result) {
+  for (std::size_t i = 0; i < result.distances.size(); ++i) {
+    if (std::isnan(result.distances[i])) continue;
+    result.reached += i < vertices;
+    result.farthest = std::max(result.farthest, result.distances[i]);
   }
+}
 
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-nlohmann::json to_json(const DistanceSource& source, const TriangleMesh& mesh) {
+nlohmann::json source_json(const DistanceSource& source, const TriangleMesh& mesh) {
   const Vec3 p = mesh.position(source.point), b = source.point.barycentric;
   nlohmann::json json;
   json["position"] = {p.x(), p.y(), p.z()};
@@ -202,142 +178,117 @@ nlohmann::json to_json(const DistanceSource& source, const TriangleMesh& mesh) {
   return json;
 }
 
+void print_json(const DistanceRequest& request, const InputMesh& input, const Nodes& nodes,
+                const DistanceLengths& lengths, const DistanceResult& result) {
+  const auto if_nodes = [&](const nlohmann::json& value) {
+    return request.needs_nodes ? value : nlohmann::json();
+  };
+  nlohmann::json json = new_report("distance");
+  json["mesh"] = input.path;
+  json["source"] = source_json(result.source, input.cleaned);
+  json["source"]["face"] = input.cleaning.kept[result.source.point.face];
+  json["distance"] = name_of(request.method);
+  json["backend"] = result.backend;
+  json["radius"] = lengths.radius;
+  json["spacing"] = if_nodes(lengths.spacing);
+  json["nodes"] = nodes.surface.nodes.nodes.size();
+  json["refinement"] = if_nodes(nodes.bisected ? "bisection" : "intrinsic");
+  json["bridges"] = nodes.bridges;
+  json["vertices"] = input.cleaned.positions.size();
+  json["vertices_reached"] = result.reached;
+  json["farthest"] = result.farthest;
+  json["compare"] = result.error ? to_json(*result.error, lengths.sigma) : nlohmann::json();
+  json["compare_all"] =
+      request.compare_all ? to_json(result.compared, lengths.sigma) : nlohmann::json();
+  json["seconds"] = result.seconds;
+  print_report(std::move(json));
+}
+
+void print_summary(const DistanceRequest& request, const InputMesh& input, const Nodes& nodes,
+                   const DistanceLengths& lengths, const DistanceResult& result) {
+  const Vec3 p = input.cleaned.position(result.source.point);
+  std::cerr << input.path << ": distances from (" << format_number(p.x()) << ", "
+            << format_number(p.y()) << ", " << format_number(p.z()) << ") by " << result.backend;
+  if (request.needs_nodes)
+    std::cerr << " between " << format_count(nodes.surface.nodes.nodes.size()) << " nodes, spacing "
+              << format_number(lengths.spacing) << (nodes.bisected ? ", by bisection" : "");
+  if (nodes.bridges > 0) std::cerr << " and " << format_count(nodes.bridges) << " bridges";
+  std::cerr << ": " << format_count(result.reached) << " of "
+            << format_count(input.cleaned.positions.size()) << " vertices reached, farthest "
+            << format_number(result.farthest) << '\n';
+  if (result.source.off_surface > 0)
+    std::cerr << "the point asked for is " << format_number(result.source.off_surface)
+              << " away from the surface\n";
+}
+
+void print_errors(const DistanceRequest& request, const DistanceLengths& lengths,
+                  const DistanceResult& result) {
+  const ErrorScale scale{lengths.sigma, (request.sigma ? "sigma = " : "sigma = radius / 2.5 = ") +
+                                            format_number(lengths.sigma)};
+  if (request.compare_all) {
+    print_table(result.compared, scale);
+  } else if (result.error) {
+    print_error(*result.error, result.backend, scale);
+  }
+}
+
 }  // namespace
 
-int run_distance(const std::vector<std::string>& arguments) {
-  const Command command = make_command();
-  po::variables_map values;
-  if (!parse(command, arguments, values)) return 0;
-  const std::string path = argument_of(command, values, "mesh");
-  const Request request = read_request(values);
+int run_distance(const Arguments& arguments) {
+  const std::string path = arguments.argument("mesh");
+  const DistanceRequest request = read_distance_request(arguments);
   const InputMesh input = read_input_mesh(path);
   warn(input.warnings);
   const TriangleMesh& mesh = input.cleaned;
-  const bool exact = request.method == DistanceMethod::exact;
-  if ((exact || request.compare) && !input.cleaning.manifold())
+  if ((request.exact() || request.compare) && !input.cleaning.manifold())
     throw InputError(path + ": exact distances need a manifold mesh: " + input.cleaning.defects());
-  const DistanceSource source = find_source(values, input);
+  DistanceResult result;
+  result.source = find_source(arguments, input);
   check_interrupted();
 
   std::optional<TexelMap> map;
-  if (request.needs_atlas) {
-    const Atlas atlas = read_atlas(values, mesh, "atlas");
-    map = naming(path, [&] { return make_texel_map(mesh, atlas.width, atlas.height, atlas.map); });
-    if (map->claims.empty()) throw InputError(path + ": no texel is covered; has the mesh UVs?");
-  }
-  const double texel = map ? map->median_texel_size() : 0;
-  const double radius =
-      request.radius ? resolve(*request.radius, texel, mesh.diagonal()) : kInfinity;
-  const double spacing = request.spacing ? resolve(*request.spacing, texel, mesh.diagonal())
-                                         : default_spacing(mesh, radius);
+  if (request.needs_atlas) map = covered_map(input, read_atlas(arguments, mesh, "atlas"));
+  const DistanceLengths lengths =
+      resolve_lengths(request, mesh, map ? map->median_texel_size() : 0);
   check_interrupted();
 
-  nlohmann::json seconds;
   Stopwatch watch;
-  NodeSurface surface;
-  RefineReport refined;
-  Index bridges = 0;
+  Nodes nodes;
   if (request.needs_nodes) {
-    RefineOptions options;
-    options.spacing = spacing;
-    options.flat_faces = request.bridge.has_value();
-    check_spacing(mesh, spacing);
-    surface = naming(path, [&] { return refine(mesh, input.cleaning, options, &refined); });
-    if (request.bridge)
-      bridges = add_bridges(mesh, resolve(*request.bridge, texel, mesh.diagonal()), surface);
-    seconds["refine"] = watch.lap();
+    nodes = make_nodes(input, lengths);
+    result.seconds["refine"] = watch.lap();
     check_interrupted();
   }
-  // Nodes start with the mesh's vertices.
-  std::vector<SurfacePoint> places = surface.nodes.nodes;
-  if (exact && !request.needs_nodes) places = make_node_mesh(mesh).nodes;
-  const auto exact_distances = [&] {
-    return NearbyGeodesics(mesh, radius).distances(source.point, places);
-  };
-  auto distances =
-      exact ? exact_distances() : node_distances(mesh, surface, source, request.method, radius);
-  seconds["distance"] = watch.lap();
+  const NodeSurface& surface = nodes.surface;
+  result.distances = request.exact() ? exact_distances(mesh, surface, result.source, lengths.radius)
+                                     : node_distances(mesh, surface, result.source, request.method,
+                                                      lengths.radius);
+  result.seconds["distance"] = watch.lap();
   check_interrupted();
-  const double sigma =
-      request.sigma ? resolve(*request.sigma, texel, mesh.diagonal()) : radius / 2.5;
-  std::optional<DistanceError> error;
-  std::vector<ComparedBackend> compared;
   if (request.compare) {
-    const std::vector<double> truth = exact ? distances : exact_distances();
-    if (!exact) error = distance_error(truth, distances, sigma);
-    if (request.compare_all)
-      compared = compare_backends(mesh, surface, source, truth, radius, sigma);
-    seconds["compare"] = watch.lap();
+    compare(request, mesh, surface, lengths, result);
+    result.seconds["compare"] = watch.lap();
   }
   check_interrupted();
-  if (has(values, "texture")) {
-    const Image image = exact ? exact_distance_texture(mesh, *map, source, radius)
-                              : distance_texture(*map, surface, distances, radius);
-    check_interrupted();
-    std::vector<std::string> warnings;
-    write_image(text_of(values, "texture"), image, {}, &warnings);
-    warn(warnings);
-    seconds["texture"] = watch.lap();
+  if (arguments.has("texture")) {
+    write_texture(arguments.text("texture"),
+                  request.exact()
+                      ? exact_distance_texture(mesh, *map, result.source, lengths.radius)
+                      : distance_texture(*map, surface, result.distances, lengths.radius));
+    result.seconds["texture"] = watch.lap();
   }
-  forget_beyond(radius, distances);
-  if (has(values, "nodes-ply"))
-    write_nodes(text_of(values, "nodes-ply"), mesh, surface.nodes, distances);
-  if (has(values, "output")) write_vertices(text_of(values, "output"), input, distances);
+  forget_beyond(lengths.radius, result.distances);
+  write_plys(arguments, input, surface, result.distances);
+  count_reached(mesh.positions.size(), result);
+  result.backend =
+      request.exact() ? "exact" : make_backend(request.method, mesh, surface.nodes)->name();
 
-  const std::string backend(exact ? "exact"
-                                  : make_backend(request.method, mesh, surface.nodes)->name());
-  const std::size_t vertices = mesh.positions.size();
-  std::size_t reached = 0;
-  double farthest = 0;
-  for (std::size_t i = 0; i < distances.size(); ++i) {
-    if (std::isnan(distances[i])) continue;
-    reached += i < vertices;
-    farthest = std::max(farthest, distances[i]);
-  }
-  if (flag_of(values, "json")) {
-    nlohmann::json json = new_report("distance");
-    json["mesh"] = path;
-    json["source"] = to_json(source, mesh);
-    json["source"]["face"] = input.cleaning.kept[source.point.face];
-    json["distance"] = name_of(request.method);
-    json["backend"] = backend;
-    json["radius"] = radius;
-    json["spacing"] = request.needs_nodes ? nlohmann::json(spacing) : nlohmann::json();
-    json["nodes"] = surface.nodes.nodes.size();
-    json["refinement"] = !request.needs_nodes
-                             ? nlohmann::json()
-                             : nlohmann::json(refined.bisected ? "bisection" : "intrinsic");
-    json["bridges"] = bridges;
-    json["vertices"] = vertices;
-    json["vertices_reached"] = reached;
-    json["farthest"] = farthest;
-    json["compare"] = error ? to_json(*error, sigma) : nlohmann::json();
-    json["compare_all"] = request.compare_all ? to_json(compared, sigma) : nlohmann::json();
-    json["seconds"] = seconds;
-    print_report(std::move(json));
+  if (arguments.flag("json")) {
+    print_json(request, input, nodes, lengths, result);
     return 0;
   }
-  if (!flag_of(values, "quiet")) {
-    const Vec3 p = mesh.position(source.point);
-    std::cerr << path << ": distances from (" << format_number(p.x()) << ", "
-              << format_number(p.y()) << ", " << format_number(p.z()) << ") by " << backend;
-    if (request.needs_nodes)
-      std::cerr << " between " << format_count(surface.nodes.nodes.size()) << " nodes, spacing "
-                << format_number(spacing) << (refined.bisected ? ", by bisection" : "");
-    if (bridges > 0) std::cerr << " and " << format_count(bridges) << " bridges";
-    std::cerr << ": " << format_count(reached) << " of " << format_count(vertices)
-              << " vertices reached, farthest " << format_number(farthest) << '\n';
-    if (source.off_surface > 0)
-      std::cerr << "the point asked for is " << format_number(source.off_surface)
-                << " away from the surface\n";
-  }
-  const ErrorScale scale{
-      sigma, (request.sigma ? "sigma = " : "sigma = radius / 2.5 = ") + format_number(sigma)};
-  if (request.compare_all) {
-    print_table(compared, scale);
-  } else if (error) {
-    print_error(*error, backend, scale);
-  }
+  if (!arguments.flag("quiet")) print_summary(request, input, nodes, lengths, result);
+  print_errors(request, lengths, result);
   return 0;
 }
 

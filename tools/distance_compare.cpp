@@ -1,10 +1,13 @@
 #include "distance_compare.h"
 
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
+
+#include "format.h"
+#include "interruption.h"
+#include "stopwatch.h"
 
 namespace onmesh::tools {
 namespace {
@@ -14,11 +17,10 @@ ComparedBackend measure(const std::string& name, const std::vector<double>& exac
   check_interrupted();
   ComparedBackend result;
   result.name = name;
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
   try {
     const std::vector<double> found = distances();
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.seconds = watch.lap();
     result.error = distance_error(exact, found, sigma);
   } catch (const InputError& error) {
     result.skipped = error.what();
@@ -32,8 +34,6 @@ std::string padded(std::string text, std::size_t width) {
   if (text.size() < width) text.resize(width, ' ');
   return text + "  ";
 }
-
-std::string percent(double share) { return format_number(100 * share) + " %"; }
 
 }  // namespace
 
@@ -73,7 +73,7 @@ void print_error(const DistanceError& error, const std::string& backend, const E
     std::cout << line << '\n';
   }
   if (!scaled) return;
-  std::cout << "  wrong share of a Gaussian's weights: " << percent(error.weight) << '\n'
+  std::cout << "  wrong share of a Gaussian's weights: " << format_percent(error.weight) << '\n'
             << "with " << scale.meaning << '\n';
 }
 
@@ -94,7 +94,7 @@ void print_table(const std::vector<ComparedBackend>& backends, const ErrorScale&
     if (b.skipped.empty()) {
       for (const double value : {b.error.mean, b.error.p99, b.error.max})
         line += padded(format_number(scaled ? value / scale.sigma : value), width);
-      if (scaled) line += padded(percent(b.error.weight), width);
+      if (scaled) line += padded(format_percent(b.error.weight), width);
       line += padded(format_count(b.error.missed), width) + format_seconds(b.seconds);
     } else {
       line += "skipped: " + b.skipped;

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "format.h"
+#include "onmesh/base/plane.h"
 #include "onmesh/distance/make_backend.h"
-#include "onmesh/measure/distance_error.h"
+#include "onmesh/measure/nearby_geodesics.h"
 #include "onmesh/mesh/closest_point.h"
 #include "onmesh/patches/grow_patch.h"
 #include "onmesh/samples/samples.h"
@@ -23,7 +25,6 @@ double longest_path(const NodeMesh& nodes) {
 }
 
 Vec3 uv_barycentric(const std::array<Vec2, 3>& c, const Vec2& p) {
-  const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
   const double area = cross(c[1] - c[0], c[2] - c[0]);
   const double b1 = cross(p - c[0], c[2] - c[0]) / area;
   const double b2 = cross(c[1] - c[0], p - c[0]) / area;

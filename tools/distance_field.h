@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "inputs.h"
+#include "onmesh/atlas/texel_map.h"
 #include "onmesh/distance/backend.h"
+#include "onmesh/image/image.h"
 #include "onmesh/nodes/refine.h"
 
 namespace onmesh::tools {
@@ -16,9 +18,11 @@ struct DistanceSource {
   double off_surface = 0;  ///< how far the point that was asked for lies from it
 };
 
-/// Vertex of the file, from 0. \throw UsageError if there is none or no face is left around it
+/// Vertex of the file, from 0.
+/// \throw UsageError if there is none or no face is left around it
 DistanceSource source_at_vertex(const InputMesh& input, std::int64_t vertex);
-/// The first face whose UV triangle, moved by whole tiles, holds the UV. \throw UsageError if none
+/// The first face whose UV triangle, moved by whole tiles, holds the UV.
+/// \throw UsageError if none does
 DistanceSource source_at_uv(const TriangleMesh& mesh, const Vec2& uv);
 /// The closest point of the surface.
 DistanceSource source_at_point(const TriangleMesh& mesh, const Vec3& point);

@@ -1,21 +1,26 @@
 // onmesh filter: the main job. Reads mesh and texture, filters, writes the texture.
-#include <chrono>
+#include "onmesh/filter/filter.h"
+
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "command.h"
-#include "inputs.h"
-#include "onmesh/filter/filter.h"
-#include "onmesh/mesh_io/mesh_io.h"
+#include "filter_report.h"
+#include "flags.h"
+#include "interruption.h"
+#include "messages.h"
+#include "onmesh/base/process_memory.h"
+#include "onmesh/image/image_io.h"
+#include "onmesh/mesh_io/read_mesh.h"
+#include "report.h"
+#include "shared_options.h"
+#include "stopwatch.h"
+#include "subcommands.h"
 #include "texture_choice.h"
 
 namespace onmesh::tools {
-namespace {
 
-using nlohmann::json;
-
-Command make_command() {
+Command filter_command() {
   Command command;
   command.name = "filter";
   command.synopsis = "MESH [-t TEXTURE] -o OUT [options]";
@@ -69,212 +74,65 @@ Command make_command() {
   return command;
 }
 
-bool given(const po::variables_map& values, const char* name) {
-  return has(values, name) && !values[name].defaulted();
-}
+namespace {
 
-/// The enumerator whose name was given.
-template <typename Enum>
-Enum choice(const po::variables_map& values, const std::string& name,
-            const std::vector<std::pair<std::string, Enum>>& known) {
-  const std::string value = text_of(values, name);
-  std::string names;
-  for (const auto& [known_name, enumerator] : known) {
-    if (value == known_name) return enumerator;
-    names += (names.empty() ? "" : ", ") + known_name;
-  }
-  throw UsageError("--" + name + ": '" + value + "' is not one of " + names);
-}
+using nlohmann::json;
 
-void refuse_ignored(const po::variables_map& values, const FilterOptions& options) {
-  if (options.kind == FilterKind::gaussian && given(values, "sigma-range")) {
+void refuse_ignored(const Arguments& arguments, const FilterOptions& options) {
+  if (options.kind == FilterKind::gaussian && arguments.given("sigma-range")) {
     throw UsageError("--sigma-range: only with --kind bilateral");
   }
-  if (options.method == FilterMethod::direct && given(values, "tolerance")) {
+  if (options.method == FilterMethod::direct && arguments.given("tolerance")) {
     throw UsageError("--tolerance: not with --method direct");
   }
   for (const char* name : {"spacing", "r-coef", "seed"}) {
-    if (options.samples != SampleKind::poisson && given(values, name)) {
-      throw UsageError(std::string("--") + name + ": only with --samples poisson");
+    if (options.samples != SampleKind::poisson && arguments.given(name)) {
+      throw UsageError(dashed(name) + ": only with --samples poisson");
     }
   }
+  arguments.refuse_together("spacing", {"r-coef"});
 }
 
-FilterOptions filter_options(const po::variables_map& values) {
+FilterOptions filter_options(const Arguments& arguments) {
   FilterOptions options;
-  options.kind = choice<FilterKind>(
-      values, "kind", {{"bilateral", FilterKind::bilateral}, {"gaussian", FilterKind::gaussian}});
-  options.samples = choice<SampleKind>(
-      values, "samples", {{"texel", SampleKind::texel}, {"poisson", SampleKind::poisson}});
-  options.wrap = choice<Wrap>(values, "wrap", {{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}});
-  options.overlap = choice<Overlap>(
-      values, "overlap",
+  options.kind = arguments.choice<FilterKind>(
+      "kind", {{"bilateral", FilterKind::bilateral}, {"gaussian", FilterKind::gaussian}});
+  options.samples = arguments.choice<SampleKind>(
+      "samples", {{"texel", SampleKind::texel}, {"poisson", SampleKind::poisson}});
+  options.wrap = wrap_of(arguments);
+  options.overlap = arguments.choice<Overlap>(
+      "overlap",
       {{"average", Overlap::average}, {"first", Overlap::first}, {"error", Overlap::error}});
-  options.method = choice<FilterMethod>(values, "method",
-                                        {{"auto", FilterMethod::automatic},
-                                         {"direct", FilterMethod::direct},
-                                         {"nodes", FilterMethod::nodes}});
-  refuse_ignored(values, options);
-  const auto length = [&](const std::string& name) {
-    return parse_length("--" + name, text_of(values, name));
-  };
-  options.sigma_spatial = length("sigma-spatial");
-  options.sigma_range = parse_number("--sigma-range", text_of(values, "sigma-range"));
-  if (has(values, "tolerance")) {
-    options.tolerance = parse_number("--tolerance", text_of(values, "tolerance"));
-  }
-  if (has(values, "radius")) options.radius = length("radius");
-  if (has(values, "spacing")) options.spacing = length("spacing");
-  if (has(values, "r-coef")) options.r_coef = parse_number("--r-coef", text_of(values, "r-coef"));
-  options.bridge = bridge_of(values);
-  if (has(values, "node-spacing")) options.node_spacing = length("node-spacing");
-  try {
-    options.distance = distance_method(text_of(values, "distance"));
-  } catch (const UsageError& error) {
-    throw UsageError(std::string("--distance: ") + error.what());
-  }
-  options.seed = std::uint64_t(integer_of(values, "seed", 0, INT64_MAX));
-  options.gutter = int(integer_of(values, "gutter", 0, 32768));
-  options.threads = int(integer_of(values, "threads", 0, 1024));
+  options.method = arguments.choice<FilterMethod>("method", {{"auto", FilterMethod::automatic},
+                                                             {"direct", FilterMethod::direct},
+                                                             {"nodes", FilterMethod::nodes}});
+  refuse_ignored(arguments, options);
+  options.sigma_spatial = arguments.length("sigma-spatial");
+  options.sigma_range = arguments.number("sigma-range");
+  if (arguments.has("tolerance")) options.tolerance = arguments.number("tolerance");
+  options.radius = arguments.optional_length("radius");
+  options.spacing = arguments.optional_length("spacing");
+  if (arguments.has("r-coef")) options.r_coef = arguments.number("r-coef");
+  options.bridge = bridge_of(arguments);
+  options.node_spacing = arguments.optional_length("node-spacing");
+  options.distance = distance_of(arguments);
+  options.seed = std::uint64_t(arguments.integer("seed", 0, INT64_MAX));
+  options.gutter = int(arguments.integer("gutter", 0, 32768));
+  options.threads = int(arguments.integer("threads", 0, 1024));
   return options;
 }
 
 /// All options with their values in force.
-json options_json(const po::variables_map& values) {
+json options_json(const Arguments& arguments) {
   json options = json::object();
-  for (const auto& [name, value] : values) {
+  for (const auto& [name, value] : arguments.values()) {
     if (const auto* text_value = boost::any_cast<std::string>(&value.value())) {
       options[name] = *text_value;
     } else {
-      options[name] = flag_of(values, name);
+      options[name] = arguments.flag(name);
     }
   }
   return options;
-}
-
-json plan_json(const FilterPlan& plan) {
-  return {{"sigma_spatial", plan.sigma_spatial},
-          {"sigma_texels", plan.sigma_spatial / plan.texel_size},
-          {"radius", plan.radius},
-          {"texel_size", plan.texel_size},
-          {"node_spacing", plan.node_spacing},
-          {"curved_node_spacing", plan.curved_spacing},
-          {"finest_node_spacing", plan.finest_spacing},
-          {"bridge", plan.bridge > 0 ? json(plan.bridge) : json()},
-          {"sample_spacing", plan.sample_spacing > 0 ? json(plan.sample_spacing) : json()},
-          {"largest_sample_spacing",
-           plan.sample_spacing > 0 ? json(plan.largest_sample_spacing) : json()},
-          {"surface_area", plan.surface_area},
-          {"texels", plan.texels},
-          {"overlapped_texels", plan.overlapped},
-          {"estimated_samples", plan.samples},
-          {"estimated_nodes", plan.nodes},
-          {"estimated_memory_bytes", plan.memory_bytes}};
-}
-
-json report_json(const FilterReport& report) {
-  json stages = json::array();
-  for (const StageTime& stage : report.stages) {
-    stages.push_back({{"stage", stage.stage},
-                      {"seconds", stage.seconds},
-                      {"peak_memory_bytes", stage.peak_memory_bytes}});
-  }
-  return {
-      {"backend", {{"name", report.backend}, {"reason", report.backend_reason}}},
-      {"method",
-       {{"name", report.method},
-        {"texels_by_nodes", report.by_nodes},
-        {"palette", report.palette},
-        {"checked_values", report.checked},
-        {"rms_error", report.rms_error},
-        {"max_error", report.max_error}}},
-      {"instruction_set", report.instruction_set},
-      {"refinement", report.refinement},
-      {"lengths",
-       {{"sigma_spatial", report.sigma_spatial},
-        {"radius", report.radius},
-        {"texel_size", report.texel_size},
-        {"node_spacing", report.node_spacing},
-        {"sample_spacing", report.sample_spacing > 0 ? json(report.sample_spacing) : json()},
-        {"largest_sample_spacing",
-         report.sample_spacing > 0 ? json(report.largest_sample_spacing) : json()}}},
-      {"counts",
-       {{"texels", report.texels},
-        {"samples", report.samples},
-        {"nodes", report.nodes},
-        {"node_faces", report.node_faces},
-        {"bridges", report.bridges},
-        {"patches", report.patches},
-        {"table_rows", report.table_rows},
-        {"pairs", report.pairs},
-        {"taps_per_texel", report.taps},
-        {"overlapped_texels", report.overlapped},
-        {"gutter_texels", report.gutter},
-        {"texels_without_sample", report.without_sample}}},
-      {"cpu_seconds", {{"table", report.table_cpu_seconds}, {"kernel", report.kernel_cpu_seconds}}},
-      {"stages", stages}};
-}
-
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
-std::string length_text(double length, double texel_size) {
-  return number_text(length) + " (" + number_text(length / texel_size) + " texels)";
-}
-
-void print_plan(const FilterPlan& plan, const Image& texture, std::ostream& out) {
-  out << "texture       " << texture.width << " x " << texture.height << ", " << texture.channels
-      << " channels; " << format_count(plan.texels) << " texels on the surface, one is "
-      << number_text(plan.texel_size) << " wide\n"
-      << "sigma         " << length_text(plan.sigma_spatial, plan.texel_size) << '\n'
-      << "radius        " << length_text(plan.radius, plan.texel_size) << '\n'
-      << "nodes         about " << format_count(plan.nodes) << ", "
-      << length_text(plan.node_spacing, plan.texel_size) << " apart";
-  if (plan.curved_spacing < plan.node_spacing) {
-    out << ", " << length_text(plan.curved_spacing, plan.texel_size)
-        << " where the surface is curved";
-  }
-  out << ", " << length_text(plan.finest_spacing, plan.texel_size) << " where distances bend\n";
-  if (plan.sample_spacing > 0) {
-    out << "samples       about " << format_count(plan.samples) << ", "
-        << length_text(plan.sample_spacing, plan.texel_size);
-    if (plan.largest_sample_spacing > plan.sample_spacing) {
-      out << " ... " << length_text(plan.largest_sample_spacing, plan.texel_size);
-    }
-    out << " apart\n";
-  }
-  out << "memory        about " << format_bytes(plan.memory_bytes) << '\n';
-}
-
-void print_summary(const FilterReport& report, double seconds, std::ostream& out) {
-  out << format_count(report.texels) << " texels filtered in " << format_seconds(seconds) << '\n'
-      << "sigma " << length_text(report.sigma_spatial, report.texel_size) << ", radius "
-      << length_text(report.radius, report.texel_size) << "; " << format_count(report.nodes)
-      << " nodes in " << format_count(report.patches) << " patches, distances: " << report.backend
-      << " (" << report.backend_reason << ")\n";
-  const std::uint64_t direct = report.texels - report.by_nodes;
-  if (direct > 0) {
-    out << format_count(direct) << " texels by " << format_count(std::uint64_t(report.taps + 0.5))
-        << " samples each on average\n";
-  }
-  if (report.by_nodes > 0) {
-    out << format_count(report.by_nodes) << " texels by nodes";
-    if (report.palette > 0) out << ", at most " << report.palette << " colours";
-    out << "; of " << format_count(report.checked) << " values checked, RMS error "
-        << number_text(report.rms_error) << ", largest " << number_text(report.max_error) << '\n';
-  }
-  if (report.bridges > 0) out << format_count(report.bridges) << " bridges between parts\n";
-  for (const StageTime& stage : report.stages) {
-    out << "  " << stage.stage
-        << std::string(14 - std::min<std::size_t>(stage.stage.size(), 13), ' ')
-        << format_seconds(stage.seconds) << '\n';
-  }
-  if (report.without_sample > 0) {
-    out << format_count(report.without_sample) << " texels found no sample and keep their values\n";
-  }
 }
 
 /// Writing over the texture is fine (it is replaced at the end), over the mesh never.
@@ -286,91 +144,122 @@ void check_output(const std::string& output, const std::string& mesh, const Imag
   check_writable_image(output, texture);
 }
 
-/// Times the reading and writing around the filter as stages of the report.
-class Clock {
- public:
-  StageTime stage(const char* name) {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return {name, seconds, peak_memory_bytes()};
-  }
-  double total() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
+/// Mesh and texture as read, and what is told in the end.
+struct FilterInputs {
+  std::string mesh_path;
+  TriangleMesh mesh;
+  TextureChoice choice;
+  Image texture;
+  std::vector<StageTime> stages;
+  std::vector<std::string> warnings;
 };
 
-}  // namespace
+StageTime stage(const char* name, Stopwatch& watch) {
+  return {name, watch.lap(), peak_memory_bytes()};
+}
 
-int run_filter(const std::vector<std::string>& arguments) {
-  const Command command = make_command();
-  po::variables_map values;
-  if (!parse(command, arguments, values)) return 0;
-  const std::string mesh_path = argument_of(command, values, "mesh");
-  const bool dry_run = flag_of(values, "dry-run"), as_json = flag_of(values, "json");
-  const bool quiet = flag_of(values, "quiet");
-  const std::string output = dry_run && !has(values, "output") ? "" : text_of(values, "output");
-  FilterOptions options = filter_options(values);
-
-  Clock clock;
-  std::vector<StageTime> before;
-  std::vector<std::string> warnings;
-  TriangleMesh mesh = read_mesh(mesh_path, &warnings);
-  before.push_back(clock.stage("read mesh"));
+FilterInputs read_inputs(const Arguments& arguments, Stopwatch& watch) {
+  FilterInputs inputs;
+  inputs.mesh_path = arguments.argument("mesh");
+  inputs.mesh = read_mesh(inputs.mesh_path, &inputs.warnings);
+  inputs.stages.push_back(stage("read mesh", watch));
   check_interrupted();
-  const TextureChoice texture_choice =
-      choose_texture(mesh, optional_text(values, "texture"), optional_text(values, "material"));
-  options.faces = texture_choice.faces;
-  const Image texture = read_image(texture_choice.path);
-  before.push_back(clock.stage("read texture"));
+  inputs.choice = choose_texture(inputs.mesh, arguments.optional_text("texture"),
+                                 arguments.optional_text("material"));
+  inputs.texture = read_image(inputs.choice.path);
+  inputs.stages.push_back(stage("read texture", watch));
   check_interrupted();
-  if (!output.empty()) check_output(output, mesh_path, texture);
+  return inputs;
+}
 
+/// The part of the JSON report that plan and run share.
+json report_start(const Arguments& arguments, const FilterInputs& inputs,
+                  const std::string& output) {
   json out = new_report("filter");
-  out["mesh"] = mesh_path;
-  out["texture"] = {{"path", texture_choice.path.string()},
-                    {"reason", texture_choice.reason},
-                    {"width", texture.width},
-                    {"height", texture.height},
-                    {"channels", texture.channels}};
-  out["output"] = output.empty() ? json() : json(output);
-  out["options"] = options_json(values);
-  out["dry_run"] = dry_run;
+  out["mesh"] = inputs.mesh_path;
+  out["texture"] = {{"path", inputs.choice.path.string()},
+                    {"reason", inputs.choice.reason},
+                    {"width", inputs.texture.width},
+                    {"height", inputs.texture.height},
+                    {"channels", inputs.texture.channels}};
+  out["output"] = text_or_null(output);
+  out["options"] = options_json(arguments);
+  out["dry_run"] = arguments.flag("dry-run");
+  return out;
+}
 
-  if (dry_run) {
-    const FilterPlan plan = naming(mesh_path, [&] { return plan_filter(mesh, texture, options); });
-    warnings.insert(warnings.end(), plan.warnings.begin(), plan.warnings.end());
-    if (!quiet) warn(warnings);
-    out["plan"] = plan_json(plan);
-    out["warnings"] = warnings;
-    if (as_json) print_report(out);
-    if (!as_json) print_plan(plan, texture, std::cout);
-    return 0;
+/// Adds the library's warnings to those of reading, in terms of flags.
+void add_warnings(const std::vector<std::string>& more, std::vector<std::string>& warnings) {
+  for (const std::string& warning : more) warnings.push_back(in_flags(warning));
+}
+
+/// Calls work(), which filters the mesh read; errors name the file and flags.
+template <class Work>
+auto filtering(const FilterInputs& inputs, Work work) {
+  return naming(inputs.mesh_path, [&] { return with_flags(work); });
+}
+
+void tell_plan(const Arguments& arguments, const FilterOptions& options, FilterInputs& inputs,
+               json out) {
+  const FilterPlan plan =
+      filtering(inputs, [&] { return plan_filter(inputs.mesh, inputs.texture, options); });
+  add_warnings(plan.warnings, inputs.warnings);
+  if (!arguments.flag("quiet")) warn(inputs.warnings);
+  if (!arguments.flag("json")) {
+    print_plan(plan, inputs.texture, std::cout);
+    return;
   }
+  out["plan"] = to_json(plan);
+  out["warnings"] = inputs.warnings;
+  print_report(std::move(out));
+}
 
+void filter_and_write(const Arguments& arguments, const FilterOptions& options,
+                      FilterInputs& inputs, const std::string& output, json out, Stopwatch& watch) {
+  const bool quiet = arguments.flag("quiet");
   FilterReport report;
   Image result;
   {
     ProgressBar bar(quiet);
-    result =
-        naming(mesh_path, [&] { return filter(mesh, texture, options, &report, bar.callback()); });
+    result = filtering(inputs, [&] {
+      return filter(inputs.mesh, inputs.texture, options, &report, bar.callback());
+    });
   }
-  clock.stage("filter");
+  watch.lap();
   check_interrupted();
-  warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
-  write_image(output, result, {}, &warnings);
-  report.stages.insert(report.stages.begin(), before.begin(), before.end());
-  report.stages.push_back(clock.stage("write texture"));
-  if (!quiet) warn(warnings);
-  if (!quiet) print_summary(report, clock.total(), std::cerr);
-  if (as_json) {
-    out.update(report_json(report));
-    out["warnings"] = warnings;
-    out["seconds"] = clock.total();
-    print_report(out);
+  add_warnings(report.warnings, inputs.warnings);
+  write_image(output, result, {}, &inputs.warnings);
+  report.stages.insert(report.stages.begin(), inputs.stages.begin(), inputs.stages.end());
+  report.stages.push_back(stage("write texture", watch));
+  if (!quiet) {
+    warn(inputs.warnings);
+    print_summary(report, watch.total(), std::cerr);
+  }
+  if (arguments.flag("json")) {
+    out.update(to_json(report));
+    out["warnings"] = inputs.warnings;
+    out["seconds"] = watch.total();
+    print_report(std::move(out));
+  }
+}
+
+}  // namespace
+
+int run_filter(const Arguments& arguments) {
+  arguments.argument("mesh");
+  const bool dry_run = arguments.flag("dry-run");
+  const std::string output = dry_run && !arguments.has("output") ? "" : arguments.text("output");
+  FilterOptions options = filter_options(arguments);
+
+  Stopwatch watch;
+  FilterInputs inputs = read_inputs(arguments, watch);
+  options.faces = inputs.choice.faces;
+  if (!output.empty()) check_output(output, inputs.mesh_path, inputs.texture);
+  json out = report_start(arguments, inputs, output);
+  if (dry_run) {
+    tell_plan(arguments, options, inputs, std::move(out));
+  } else {
+    filter_and_write(arguments, options, inputs, output, std::move(out), watch);
   }
   return 0;
 }

@@ -6,6 +6,11 @@
 #include <stdexcept>
 
 #include "command.h"
+#include "flags.h"
+#include "interruption.h"
+#include "onmesh/base/error.h"
+#include "onmesh/version.h"
+#include "subcommands.h"
 
 namespace {
 
@@ -13,29 +18,24 @@ using namespace onmesh::tools;
 
 enum ExitCode { kUsage = 2, kInput = 3, kFile = 4, kSignal = 128 };
 
-struct Entry {
-  const char* name;
-  Run run;
-  const char* summary;
-};
-
-constexpr Entry kCommands[] = {
-    {"filter", run_filter, "filter a texture on the mesh's surface"},
-    {"info", run_info, "report what is special or wrong about a mesh and its atlas"},
-    {"view", run_view, "render the textured mesh as a picture"},
-    {"compare", run_compare, "measure how two textures differ, and how visible seams are"},
-    {"distance", run_distance, "compute geodesic distances from a point"},
-    {"refine", run_refine, "write the nodes that distances are computed between"},
-    {"map", run_map, "write which texel lies where on the surface"},
-    {"sample", run_sample, "write Poisson-disk samples of the surface"},
-    {"make-mesh", run_make_mesh, "make a textured test mesh"},
+constexpr Subcommand kCommands[] = {
+    {"filter", "filter a texture on the mesh's surface", filter_command, run_filter},
+    {"info", "report what is special or wrong about a mesh and its atlas", info_command, run_info},
+    {"view", "render the textured mesh as a picture", view_command, run_view},
+    {"compare", "measure how two textures differ, and how visible seams are", compare_command,
+     run_compare},
+    {"distance", "compute geodesic distances from a point", distance_command, run_distance},
+    {"refine", "write the nodes that distances are computed between", refine_command, run_refine},
+    {"map", "write which texel lies where on the surface", map_command, run_map},
+    {"sample", "write Poisson-disk samples of the surface", sample_command, run_sample},
+    {"make-mesh", "make a textured test mesh", make_mesh_command, run_make_mesh},
 };
 
 void print_help(std::ostream& out) {
   out << "usage: onmesh COMMAND [arguments]\n\n"
          "Filters textures on the surface of triangle meshes.\n\n"
          "Commands:\n";
-  for (const Entry& command : kCommands) {
+  for (const Subcommand& command : kCommands) {
     out << "  " << command.name << std::string(12 - std::string(command.name).size(), ' ')
         << command.summary << '\n';
   }
@@ -46,9 +46,9 @@ void print_help(std::ostream& out) {
          "4 a file cannot be read or written, 130 interrupted, 143 terminated.\n";
 }
 
-const Entry& find_command(const std::string& name) {
+const Subcommand& find_command(const std::string& name) {
   std::vector<std::string> names;
-  for (const Entry& command : kCommands) {
+  for (const Subcommand& command : kCommands) {
     if (name == command.name) return command;
     names.emplace_back(command.name);
   }
@@ -72,16 +72,17 @@ int run(const std::vector<std::string>& arguments, std::string& name) {
     return 0;
   }
   if (first == "--version") {
-    std::cout << "onmesh " ONMESH_VERSION "\n";
+    std::cout << "onmesh " << onmesh::version() << "\n";
     return 0;
   }
   if (help) {
     first = rest[0];
     rest = {"--help"};
   }
-  const Entry& command = find_command(first);
+  const Subcommand& command = find_command(first);
   name = command.name;
-  return command.run(rest);
+  const std::optional<Arguments> parsed = parse(command.describe(), rest);
+  return parsed ? command.run(*parsed) : 0;
 }
 
 // One line on stderr, whatever the message holds.
@@ -106,6 +107,8 @@ int main(int argc, char** argv) {
     if (!std::cout) throw onmesh::FileError("standard output: cannot write");
   } catch (const Interrupted&) {
     // The destructors have removed what was half written.
+  } catch (const onmesh::OptionError& error) {
+    code = fail(name, flag_of_field(error.option()) + ": " + in_flags(error.problem()), kUsage);
   } catch (const onmesh::UsageError& error) {
     code = fail(name, error.what(), kUsage);
   } catch (const onmesh::FileError& error) {

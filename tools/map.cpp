@@ -3,13 +3,18 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "command.h"
+#include "format.h"
 #include "inputs.h"
+#include "interruption.h"
+#include "messages.h"
+#include "onmesh/image/image_io.h"
+#include "report.h"
+#include "shared_options.h"
+#include "subcommands.h"
 
 namespace onmesh::tools {
-namespace {
 
-Command make_command() {
+Command map_command() {
   Command command;
   command.name = "map";
   command.synopsis = "MESH (-t TEXTURE | --resolution WxH) -o MAP.exr [options]";
@@ -35,6 +40,8 @@ Command make_command() {
   command.positional.add("mesh", 1);
   return command;
 }
+
+namespace {
 
 // In the order in which readers hand the channels out: x y z first, then by the alphabet.
 enum Channel { kX, kY, kZ, kArea, kB0, kB1, kB2, kChart, kClaims, kCoverage, kFace, kChannels };
@@ -77,59 +84,69 @@ void restore_corner_order(const InputMesh& input, TriangleMesh& mesh) {
   }
 }
 
+/// What the map comes to.
+struct Statistics {
+  std::uint64_t covered = 0, touched = 0, overlapped = 0;
+  double texel_size = 0;
+};
+
+Statistics statistics(const TexelMap& map) {
+  const auto count = [&](Coverage c) {
+    return std::uint64_t(std::count(map.coverage.begin(), map.coverage.end(), c));
+  };
+  return {count(Coverage::covered), count(Coverage::touched), map.overlapped().size(),
+          map.median_texel_size()};
+}
+
+void print_json(const std::string& path, const std::string& output, const Atlas& atlas,
+                const TexelMap& map, const Statistics& found) {
+  nlohmann::json json = new_report("map");
+  json.update({{"mesh", path},
+               {"output", output},
+               {"texture", text_or_null(atlas.texture)},
+               {"width", map.width},
+               {"height", map.height},
+               {"charts", map.charts},
+               {"claims", map.claims.size()},
+               {"covered", found.covered},
+               {"touched", found.touched},
+               {"overlapped", found.overlapped},
+               {"texel_size", found.texel_size},
+               {"channels", kNames}});
+  print_report(std::move(json));
+}
+
 }  // namespace
 
-int run_map(const std::vector<std::string>& arguments) {
-  const Command command = make_command();
-  po::variables_map values;
-  if (!parse(command, arguments, values)) return 0;
-  const std::string path = argument_of(command, values, "mesh");
-  const std::string output = text_of(values, "output");
+int run_map(const Arguments& arguments) {
+  const std::string path = arguments.argument("mesh"), output = arguments.text("output");
   if (lower_extension(output) != ".exr")
     throw UsageError("--output: " + output + " must end in .exr, only EXR names its channels");
   check_writable_image(output, make_image(1, 1, kChannels));
-  wrap_of(values);
+  wrap_of(arguments);
 
   InputMesh input = read_input_mesh(path);
   warn(input.warnings);
   check_interrupted();
-  Atlas atlas = read_atlas(values, input.cleaned);
+  Atlas atlas = read_atlas(arguments, input.cleaned);
   atlas.image = {};
   restore_corner_order(input, input.cleaned);
   check_interrupted();
-  const TexelMap map = naming(
-      path, [&] { return make_texel_map(input.cleaned, atlas.width, atlas.height, atlas.map); });
-  if (map.claims.empty()) throw InputError(path + ": no texel is covered; has the mesh UVs?");
+  const TexelMap map = covered_map(input, atlas);
   if (input.welded.faces.size() > (1U << 24))
     warn(output + ": face numbers beyond 16,777,216 are rounded, the channels are 32-bit float");
   check_interrupted();
   write_image(output, draw(input.cleaned, map, input.cleaning.kept));
 
-  const auto count = [&](Coverage c) {
-    return std::uint64_t(std::count(map.coverage.begin(), map.coverage.end(), c));
-  };
-  const std::uint64_t covered = count(Coverage::covered), touched = count(Coverage::touched);
-  const std::uint64_t overlapped = map.overlapped().size();
-  if (flag_of(values, "json")) {
-    nlohmann::json json = new_report("map");
-    json["mesh"] = path;
-    json["output"] = output;
-    json["texture"] = atlas.texture.empty() ? nlohmann::json() : nlohmann::json(atlas.texture);
-    json["width"] = map.width;
-    json["height"] = map.height;
-    json["charts"] = map.charts;
-    json["claims"] = map.claims.size();
-    json["covered"] = covered;
-    json["touched"] = touched;
-    json["overlapped"] = overlapped;
-    json["texel_size"] = map.median_texel_size();
-    json["channels"] = kNames;
-    print_report(std::move(json));
-  } else if (!flag_of(values, "quiet")) {
-    std::cerr << output << ": " << map.width << " x " << map.height << ", " << format_count(covered)
-              << " texels covered in " << format_count(map.charts) << " charts, "
-              << format_count(touched) << " touched, " << format_count(overlapped)
-              << " shared, texel size " << format_number(map.median_texel_size()) << '\n';
+  const Statistics found = statistics(map);
+  if (arguments.flag("json")) {
+    print_json(path, output, atlas, map, found);
+  } else if (!arguments.flag("quiet")) {
+    std::cerr << output << ": " << map.width << " x " << map.height << ", "
+              << format_count(found.covered) << " texels covered in " << format_count(map.charts)
+              << " charts, " << format_count(found.touched) << " touched, "
+              << format_count(found.overlapped) << " shared, texel size "
+              << format_number(found.texel_size) << '\n';
   }
   return 0;
 }

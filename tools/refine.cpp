@@ -1,21 +1,22 @@
 // onmesh refine: the nodes that distances are computed between, as PLY with statistics.
-#include "onmesh/nodes/refine.h"
-
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "command.h"
+#include "format.h"
 #include "inputs.h"
-#include "onmesh/filter/length.h"
-#include "onmesh/mesh_io/mesh_io.h"
+#include "interruption.h"
+#include "messages.h"
+#include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/mesh_io/write_ply.h"
+#include "onmesh/nodes/refine.h"
+#include "report.h"
+#include "subcommands.h"
 
 namespace onmesh::tools {
-namespace {
 
-Command make_command() {
+Command refine_command() {
   Command command;
   command.name = "refine";
   command.synopsis = "MESH [-o NODES.ply] [options]";
@@ -41,12 +42,30 @@ Command make_command() {
   return command;
 }
 
-double length_of(const po::variables_map& values, const std::string& name, double diagonal) {
-  const Length length = parse_length("--" + name, text_of(values, name));
+namespace {
+
+double length_of(const Arguments& arguments, const std::string& name, double diagonal) {
+  const Length length = arguments.length(name);
   if (length.unit == Length::Unit::texel) {
     throw UsageError("--" + name + ": refine knows no texture; use mesh units or %");
   }
   return resolve(length, 0, diagonal);
+}
+
+RefineOptions refine_options(const Arguments& arguments) {
+  RefineOptions options;
+  options.growth = arguments.number("growth", 0, 100);
+  options.min_angle_degrees = arguments.number("min-angle", 0, 30);
+  return options;
+}
+
+void set_lengths(const Arguments& arguments, double diagonal, RefineOptions& options) {
+  options.spacing = length_of(arguments, "spacing", diagonal);
+  if (!arguments.has("finest")) return;
+  options.finest = length_of(arguments, "finest", diagonal);
+  if (options.finest > options.spacing) {
+    throw UsageError("--finest: must not be larger than --spacing");
+  }
 }
 
 void write_nodes(const std::string& path, const TriangleMesh& mesh, const NodeMesh& nodes) {
@@ -61,62 +80,68 @@ void write_nodes(const std::string& path, const TriangleMesh& mesh, const NodeMe
   write_ply(path, columns, nodes.faces, {"nodes of a refined triangulation by onmesh"});
 }
 
+/// What the refinement comes to.
+struct Statistics {
+  double area = 0, mean_edge = 0, longest_edge = 0;
+};
+
+Statistics statistics(const NodeMesh& nodes) {
+  Statistics found;
+  double edges = 0;
+  for (Index f = 0; f < nodes.faces.size(); ++f) {
+    found.area += nodes.face_area(f);
+    for (const double l : nodes.lengths[f]) edges += l / 3;
+  }
+  found.mean_edge = edges / double(std::max<std::size_t>(1, nodes.faces.size()));
+  found.longest_edge = nodes.longest_edge();
+  return found;
+}
+
+void print_json(const std::string& path, const RefineOptions& options, const RefineReport& report,
+                const Statistics& found) {
+  nlohmann::json json = new_report("refine");
+  json.update({{"mesh", path},
+               {"spacing", options.spacing},
+               {"input_vertices", report.input_vertices},
+               {"nodes", report.nodes},
+               {"faces", report.faces},
+               {"refinement", "intrinsic"},
+               {"flips", report.flips},
+               {"insertions", report.insertions},
+               {"smallest_angle_degrees", report.smallest_angle_degrees},
+               {"mean_edge", found.mean_edge},
+               {"longest_edge", found.longest_edge},
+               {"area", found.area}});
+  print_report(std::move(json));
+}
+
 }  // namespace
 
-int run_refine(const std::vector<std::string>& arguments) {
-  const Command command = make_command();
-  po::variables_map values;
-  if (!parse(command, arguments, values)) return 0;
-  const std::string path = argument_of(command, values, "mesh");
-  if (has(values, "output")) check_writable_file(text_of(values, "output"));
-  RefineOptions options;
-  options.growth = number_of(values, "growth", 0, 100);
-  options.min_angle_degrees = number_of(values, "min-angle", 0, 30);
+int run_refine(const Arguments& arguments) {
+  const std::string path = arguments.argument("mesh");
+  if (arguments.has("output")) check_writable_file(arguments.text("output"));
+  RefineOptions options = refine_options(arguments);
 
   std::vector<std::string> warnings;
   const TriangleMesh read = weld(read_mesh(path, &warnings));
   CleanReport cleaning;
   const TriangleMesh mesh = clean(read, &cleaning);
   warn(warnings);
-  options.spacing = length_of(values, "spacing", mesh.diagonal());
-  if (has(values, "finest")) {
-    options.finest = length_of(values, "finest", mesh.diagonal());
-    if (options.finest > options.spacing) {
-      throw UsageError("--finest: must not be larger than --spacing");
-    }
-  }
+  set_lengths(arguments, mesh.diagonal(), options);
   check_interrupted();
   RefineReport report;
   const NodeSurface surface =
       naming(path, [&] { return refine(mesh, cleaning, options, &report); });
   check_interrupted();
-  if (has(values, "output")) write_nodes(text_of(values, "output"), mesh, surface.nodes);
+  if (arguments.has("output")) write_nodes(arguments.text("output"), mesh, surface.nodes);
 
-  double area = 0, edges = 0;
-  for (Index f = 0; f < surface.nodes.faces.size(); ++f) {
-    area += surface.nodes.face_area(f);
-    for (const double l : surface.nodes.lengths[f]) edges += l / 3;
-  }
-  const double mean_edge = edges / double(std::max<std::size_t>(1, surface.nodes.faces.size()));
-  if (flag_of(values, "json")) {
-    nlohmann::json json = new_report("refine");
-    json["mesh"] = path;
-    json["spacing"] = options.spacing;
-    json["input_vertices"] = report.input_vertices;
-    json["nodes"] = report.nodes;
-    json["faces"] = report.faces;
-    json["refinement"] = "intrinsic";
-    json["flips"] = report.flips;
-    json["insertions"] = report.insertions;
-    json["smallest_angle_degrees"] = report.smallest_angle_degrees;
-    json["mean_edge"] = mean_edge;
-    json["longest_edge"] = surface.nodes.longest_edge();
-    json["area"] = area;
-    print_report(json);
-  } else if (!flag_of(values, "quiet")) {
+  const Statistics found = statistics(surface.nodes);
+  if (arguments.flag("json")) {
+    print_json(path, options, report, found);
+  } else if (!arguments.flag("quiet")) {
     std::cerr << path << ": " << format_count(report.input_vertices) << " vertices refined to "
               << format_count(report.nodes) << " nodes, " << format_count(report.faces)
-              << " faces (spacing " << options.spacing << ", mean edge " << mean_edge
+              << " faces (spacing " << options.spacing << ", mean edge " << found.mean_edge
               << ", smallest angle " << report.smallest_angle_degrees << " degrees, "
               << format_count(report.flips) << " flips)\n";
   }

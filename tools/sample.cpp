@@ -1,26 +1,26 @@
 // onmesh sample: Poisson-disk samples of a mesh, as PLY.
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 
-#include "command.h"
-#include "inputs.h"
+#include "format.h"
+#include "interruption.h"
+#include "messages.h"
 #include "onmesh/atlas/claim_lookup.h"
-#include "onmesh/atlas/texel_map.h"
-#include "onmesh/filter/length.h"
-#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/mesh_io/write_ply.h"
 #include "onmesh/poisson/poisson.h"
+#include "report.h"
+#include "shared_options.h"
+#include "stopwatch.h"
+#include "subcommands.h"
 
 namespace onmesh::tools {
-namespace {
 
-Command make_command() {
+Command sample_command() {
   Command command;
   command.name = "sample";
   command.synopsis = "MESH -o SAMPLES.ply [--spacing H | --r-coef C] [options]";
@@ -52,6 +52,8 @@ Command make_command() {
   return command;
 }
 
+namespace {
+
 // What to sample, and the texels that the samples are to hit, if there are any.
 struct Plan {
   PoissonOptions options;
@@ -59,14 +61,13 @@ struct Plan {
   bool graded = false;  // the spacing follows the texels
 };
 
-Plan make_plan(const po::variables_map& values, const TriangleMesh& mesh) {
+Plan make_plan(const Arguments& arguments, const TriangleMesh& mesh) {
   Plan plan;
-  plan.options.seed = std::uint64_t(integer_of(values, "seed", 0, INT64_MAX));
-  std::optional<Length> length;
-  if (has(values, "spacing")) length = parse_length("--spacing", text_of(values, "spacing"));
-  const bool by_texels = length ? length->unit == Length::Unit::texel : !has(values, "r-coef");
-  if (by_texels || has_atlas_option(values) || has(values, "material")) {
-    const Atlas atlas = read_atlas(values, mesh);
+  plan.options.seed = std::uint64_t(arguments.integer("seed", 0, INT64_MAX));
+  const std::optional<Length> length = arguments.optional_length("spacing");
+  const bool by_texels = length ? length->unit == Length::Unit::texel : !arguments.has("r-coef");
+  if (by_texels || has_atlas_option(arguments) || arguments.has("material")) {
+    const Atlas atlas = read_atlas(arguments, mesh);
     plan.options.faces = atlas.map.faces;
     plan.map = make_texel_map(mesh, atlas.width, atlas.height, atlas.map);
     if (plan.map->claims.empty()) {
@@ -77,8 +78,8 @@ Plan make_plan(const po::variables_map& values, const TriangleMesh& mesh) {
   if (length) {
     const double texel_size = plan.map ? plan.map->median_texel_size() : 0;
     plan.options.spacing = resolve(*length, texel_size, mesh.diagonal());
-  } else if (has(values, "r-coef")) {
-    plan.options.spacing = number_of(values, "r-coef", 1e-9, 1e9) * mesh.mean_edge_length();
+  } else if (arguments.has("r-coef")) {
+    plan.options.spacing = arguments.number("r-coef", 1e-9, 1e9) * mesh.mean_edge_length();
   } else {
     plan.graded = true;
   }
@@ -116,109 +117,143 @@ Hits count_hits(const TriangleMesh& mesh, const TexelMap& map,
   return hits;
 }
 
+Vec3 normal(const TriangleMesh& mesh, Index face) {
+  const auto t = mesh.corners(face);
+  return (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+}
+
+/// \param spacings a column of them, unless null
 std::vector<PlyColumn> columns(const TriangleMesh& mesh, const std::vector<SurfacePoint>& samples,
                                const std::vector<double>* spacings) {
   std::vector<PlyColumn> result;
-  const auto add = [&](const char* name) -> std::vector<double>& {
+  const auto add = [&](const char* name, const auto& value_of) {
     result.push_back({});
     result.back().name = name;
     result.back().values.reserve(samples.size());
-    return result.back().values;
+    for (const SurfacePoint& s : samples) result.back().values.push_back(value_of(s));
   };
   for (const int k : {0, 1, 2}) {
-    auto& column = add(k == 0 ? "x" : k == 1 ? "y" : "z");
-    for (const SurfacePoint& s : samples) column.push_back(mesh.position(s)[k]);
+    add(k == 0   ? "x"
+        : k == 1 ? "y"
+                 : "z",
+        [&](const SurfacePoint& s) { return mesh.position(s)[k]; });
   }
   for (const int k : {0, 1, 2}) {
-    auto& column = add(k == 0 ? "nx" : k == 1 ? "ny" : "nz");
-    for (const SurfacePoint& s : samples) {
-      const auto t = mesh.corners(s.face);
-      column.push_back((t[1] - t[0]).cross(t[2] - t[0]).normalized()[k]);
-    }
+    add(k == 0   ? "nx"
+        : k == 1 ? "ny"
+                 : "nz",
+        [&](const SurfacePoint& s) { return normal(mesh, s.face)[k]; });
   }
   for (const int k : {0, 1}) {
     if (mesh.uvs.empty()) break;
-    auto& column = add(k == 0 ? "u" : "v");
-    for (const SurfacePoint& s : samples)
-      column.push_back(mesh.has_uvs(s.face) ? mesh.uv(s)[k] : std::nan(""));
+    add(k == 0 ? "u" : "v",
+        [&](const SurfacePoint& s) { return mesh.has_uvs(s.face) ? mesh.uv(s)[k] : std::nan(""); });
   }
-  auto& column = add("face");
-  for (const SurfacePoint& s : samples) column.push_back(s.face);
+  add("face", [](const SurfacePoint& s) { return s.face; });
   result.back().integer = true;
-  if (spacings) add("spacing") = *spacings;
+  if (spacings != nullptr) {
+    result.push_back({});
+    result.back().name = "spacing";
+    result.back().values = *spacings;
+  }
   return result;
+}
+
+/// What was drawn.
+struct Findings {
+  std::size_t samples = 0;
+  double least_spacing = 0, largest_spacing = 0;
+  double least_distance = 0;
+  double area = 0;  ///< of the faces sampled
+  std::optional<Hits> hits;
+  double seconds = 0;  ///< for the drawing
+};
+
+/// "0.1", or "0.1 ... 0.2" if the spacing follows the texels.
+std::string spacing_text(const Findings& found, const Plan& plan) {
+  std::ostringstream text;
+  text << found.least_spacing;
+  if (plan.graded) text << " ... " << found.largest_spacing;
+  return text.str();
+}
+
+Findings examine(const TriangleMesh& mesh, const Plan& plan, const GradedSamples& samples) {
+  Findings found;
+  found.samples = samples.points.size();
+  found.least_distance = least_sample_distance(mesh, samples);
+  check_interrupted();
+  const auto [least, largest] =
+      std::minmax_element(samples.spacings.begin(), samples.spacings.end());
+  found.least_spacing = *least;
+  found.largest_spacing = *largest;
+  const std::vector<bool>& faces = plan.options.faces;
+  for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
+    if (faces.empty() || faces[f]) found.area += mesh.face_area(f);
+  }
+  if (plan.map) found.hits = count_hits(mesh, *plan.map, samples.points);
+  return found;
+}
+
+void print_json(const Arguments& arguments, const Plan& plan, const Findings& found) {
+  nlohmann::json report = new_report("sample");
+  report.update({{"mesh", arguments.argument("mesh")},
+                 {"output", arguments.text("output")},
+                 {"seed", plan.options.seed},
+                 {"spacing", found.least_spacing},
+                 {"largest_spacing", found.largest_spacing},
+                 {"samples", found.samples},
+                 {"area", found.area},
+                 {"area_per_sample", found.area / double(found.samples)},
+                 {"least_distance", found.least_distance},
+                 {"texels", nullptr},
+                 {"seconds", found.seconds}});
+  if (found.hits) report["texels"] = {{"covered", found.hits->covered}, {"hit", found.hits->hit}};
+  print_report(std::move(report));
+}
+
+void print_text(const Plan& plan, const Findings& found) {
+  std::cout << "samples          " << format_count(found.samples) << " in "
+            << format_seconds(found.seconds) << "\n"
+            << "spacing          " << spacing_text(found, plan) << "\n"
+            << "least distance   " << found.least_distance << "\n"
+            << "area per sample  " << found.area / double(found.samples) << "\n";
+  if (found.hits) {
+    std::cout << "texels hit       " << format_count(found.hits->hit) << " of "
+              << format_count(found.hits->covered) << "\n";
+  }
 }
 
 }  // namespace
 
-int run_sample(const std::vector<std::string>& arguments) {
-  const Command command = make_command();
-  po::variables_map values;
-  if (!parse(command, arguments, values)) return 0;
-  const std::string path = argument_of(command, values, "mesh");
-  const std::string output = text_of(values, "output");
+int run_sample(const Arguments& arguments) {
+  const std::string path = arguments.argument("mesh"), output = arguments.text("output");
   check_writable_file(output);
-  if (has(values, "spacing") && has(values, "r-coef"))
-    throw UsageError("--spacing and --r-coef exclude each other");
-  const bool quiet = flag_of(values, "quiet");
+  arguments.refuse_together("spacing", {"r-coef"});
+  const bool quiet = arguments.flag("quiet");
 
   std::vector<std::string> warnings;
   const TriangleMesh mesh = weld(read_mesh(path, &warnings));
   if (!quiet) warn(warnings);
   check_interrupted();
-  const Plan plan = naming(path, [&] { return make_plan(values, mesh); });
-  const PoissonOptions& options = plan.options;
+  const Plan plan = naming(path, [&] { return make_plan(arguments, mesh); });
   check_interrupted();
 
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
   GradedSamples samples;
   {
     ProgressBar bar(quiet);
     samples = naming(path, [&] { return draw(mesh, plan, bar.callback()); });
   }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  const double seconds = watch.lap();
   check_interrupted();
-  const auto count = samples.points.size();
-  const double least_distance = least_sample_distance(mesh, samples);
-  check_interrupted();
-  const auto [least, largest] =
-      std::minmax_element(samples.spacings.begin(), samples.spacings.end());
-  std::ostringstream spacing;
-  spacing << *least;
-  if (plan.graded) spacing << " ... " << *largest;
+  Findings found = examine(mesh, plan, samples);
+  found.seconds = seconds;
   write_ply(output, columns(mesh, samples.points, plan.graded ? &samples.spacings : nullptr), {},
-            {"onmesh Poisson-disk samples, spacing " + spacing.str()});
-
-  double area = 0;
-  for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
-    if (options.faces.empty() || options.faces[f]) area += mesh.face_area(f);
-  }
-  const Hits hits = plan.map ? count_hits(mesh, *plan.map, samples.points) : Hits{};
-  if (flag_of(values, "json")) {
-    nlohmann::json report = new_report(command.name);
-    report["mesh"] = path;
-    report["output"] = output;
-    report["seed"] = options.seed;
-    report["spacing"] = *least;
-    report["largest_spacing"] = *largest;
-    report["samples"] = count;
-    report["area"] = area;
-    report["area_per_sample"] = area / double(count);
-    report["least_distance"] = least_distance;
-    report["texels"] = nullptr;
-    if (plan.map) report["texels"] = {{"covered", hits.covered}, {"hit", hits.hit}};
-    report["seconds"] = seconds.count();
-    print_report(report);
+            {"onmesh Poisson-disk samples, spacing " + spacing_text(found, plan)});
+  if (arguments.flag("json")) {
+    print_json(arguments, plan, found);
   } else if (!quiet) {
-    std::cout << "samples          " << format_count(count) << " in "
-              << format_seconds(seconds.count()) << "\n"
-              << "spacing          " << spacing.str() << "\n"
-              << "least distance   " << least_distance << "\n"
-              << "area per sample  " << area / double(count) << "\n";
-    if (plan.map) {
-      std::cout << "texels hit       " << format_count(hits.hit) << " of "
-                << format_count(hits.covered) << "\n";
-    }
+    print_text(plan, found);
   }
   return 0;
 }

@@ -3,18 +3,19 @@
 #include <map>
 #include <memory>
 
-#include "command.h"
-#include "inputs.h"
-#include "onmesh/image/image.h"
-#include "onmesh/mesh_io/mesh_io.h"
+#include "interruption.h"
+#include "messages.h"
+#include "onmesh/image/image_io.h"
+#include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/render/render.h"
 #include "onmesh/render/texture_view.h"
 #include "ply_column.h"
+#include "shared_options.h"
+#include "subcommands.h"
 
 namespace onmesh::tools {
-namespace {
 
-Command make_command() {
+Command view_command() {
   Command command;
   command.name = "view";
   command.synopsis = "(MESH | --flat) -o PICTURE [-t TEXTURE [--after TEXTURE]...] [options]";
@@ -54,6 +55,8 @@ Command make_command() {
   return command;
 }
 
+namespace {
+
 Vec3 axis(const std::string& name) {
   const bool minus = !name.empty() && name[0] == '-';
   const std::string letter = name.substr(minus ? 1 : 0);
@@ -64,46 +67,30 @@ Vec3 axis(const std::string& name) {
   throw UsageError("--up: '" + name + "' is not x, y, z, -x, -y or -z");
 }
 
-RenderOptions render_options(const po::variables_map& values) {
+RenderOptions render_options(const Arguments& arguments) {
   RenderOptions options;
-  options.width = options.height = int(integer_of(values, "size", 1, 16384));
-  if (has(values, "height")) options.height = int(integer_of(values, "height", 1, 16384));
-  options.azimuth_degrees = number_of(values, "azimuth", -1e6, 1e6);
-  options.elevation_degrees = number_of(values, "elevation", -90, 90);
-  options.zoom = number_of(values, "zoom", 1e-3, 1000);
-  options.supersampling = int(integer_of(values, "supersampling", 1, 8));
-  options.light = !flag_of(values, "no-light");
-  options.wireframe = flag_of(values, "wireframe");
-  options.up = axis(text_of(values, "up"));
-  options.wrap = wrap_of(values);
+  options.width = options.height = int(arguments.integer("size", 1, 16384));
+  if (arguments.has("height")) options.height = int(arguments.integer("height", 1, 16384));
+  options.azimuth_degrees = arguments.number("azimuth", -1e6, 1e6);
+  options.elevation_degrees = arguments.number("elevation", -90, 90);
+  options.zoom = arguments.number("zoom", 1e-3, 1000);
+  options.supersampling = int(arguments.integer("supersampling", 1, 8));
+  options.light = !arguments.flag("no-light");
+  options.wireframe = arguments.flag("wireframe");
+  options.up = axis(arguments.text("up"));
+  options.wrap = wrap_of(arguments);
   return options;
 }
 
-bool given(const po::variables_map& values, const std::string& name) {
-  return has(values, name) && !values[name].defaulted();
-}
-
-void refuse_together(const po::variables_map& values, const std::string& a,
-                     const std::vector<std::string>& others) {
-  for (const std::string& b : others) {
-    if (given(values, a) && given(values, b))
-      throw UsageError("--" + a + " and --" + b + " exclude each other");
-  }
-}
-
-void check_combination(const po::variables_map& values) {
-  refuse_together(values, "distance-ply", {"texture", "after", "face-materials", "wrap"});
-  refuse_together(values, "face-materials", {"texture", "after", "wrap"});
-  refuse_together(values, "flat",
-                  {"distance-ply", "face-materials", "wrap", "height", "azimuth", "elevation",
-                   "zoom", "up", "no-light", "wireframe"});
-  if (flag_of(values, "flat") && has(values, "mesh"))
-    throw UsageError("--flat shows textures without a mesh; leave out '" + text_of(values, "mesh") +
+void check_combination(const Arguments& arguments) {
+  arguments.refuse_together("distance-ply", {"texture", "after", "face-materials", "wrap"});
+  arguments.refuse_together("face-materials", {"texture", "after", "wrap"});
+  arguments.refuse_together("flat", {"distance-ply", "face-materials", "wrap", "height", "azimuth",
+                                     "elevation", "zoom", "up", "no-light", "wireframe"});
+  if (arguments.flag("flat") && arguments.has("mesh"))
+    throw UsageError("--flat shows textures without a mesh; leave out '" + arguments.text("mesh") +
                      "' or --flat");
-  for (const char* name : {"property", "isolines"}) {
-    if (given(values, name) && !has(values, "distance-ply"))
-      throw UsageError(std::string("--") + name + " needs --distance-ply");
-  }
+  arguments.require_with({"property", "isolines"}, "distance-ply");
 }
 
 // The scalar may have a value per vertex of the file or per vertex once they are welded.
@@ -148,54 +135,62 @@ class MaterialTextures {
   std::map<std::string, std::unique_ptr<Image>> images_;
 };
 
-std::vector<Image> flat_pictures(const po::variables_map& values, const RenderOptions& options) {
-  std::vector<std::string> paths = texts_of(values, "after");
-  paths.insert(paths.begin(), text_of(values, "texture"));
+std::vector<Image> flat_pictures(const Arguments& arguments, const RenderOptions& options) {
+  std::vector<std::string> paths = arguments.texts("after");
+  paths.insert(paths.begin(), arguments.text("texture"));
   std::vector<Image> pictures;
   for (const std::string& path : paths) {
-    pictures.push_back(flat_picture(read_image(path), options.width, options.supersampling));
+    pictures.push_back(view_texture(read_image(path), options.width, options.supersampling));
     check_interrupted();
   }
   return pictures;
 }
 
-std::vector<Image> model_pictures(const std::string& path, const po::variables_map& values,
+// The first picture of the model: coloured by a scalar, by material, or by textures.
+Image first_picture(const TriangleMesh& mesh, const std::vector<double>& scalar,
+                    const Arguments& arguments, const RenderOptions& options) {
+  RenderColour colour;
+  colour.by_material = arguments.flag("face-materials");
+  if (arguments.has("distance-ply")) {
+    colour.scalar = &scalar;
+    if (arguments.has("isolines")) {
+      const double step = arguments.number("isolines", 0, 1e300);
+      colour.isoline_step = step == 0 ? -1 : step;
+    }
+    return render(mesh, colour, options);
+  }
+  if (arguments.has("texture")) {
+    const Image texture = read_image(arguments.text("texture"));
+    colour.texture = &texture;
+    return render(mesh, colour, options);
+  }
+  if (colour.by_material) return render(mesh, colour, options);
+  const MaterialTextures textures(mesh);
+  colour.material_textures = textures.pointers;
+  return render(mesh, colour, options);
+}
+
+std::vector<Image> model_pictures(const std::string& path, const Arguments& arguments,
                                   const RenderOptions& options) {
   std::vector<std::string> warnings;
   TriangleMesh mesh = read_mesh(path, &warnings);
   warn(warnings);
   check_interrupted();
   std::vector<double> scalar;
-  if (has(values, "distance-ply")) {
-    const std::string ply = text_of(values, "distance-ply");
-    scalar = read_ply_column(ply, text_of(values, "property"));
+  if (arguments.has("distance-ply")) {
+    const std::string ply = arguments.text("distance-ply");
+    scalar = read_ply_column(ply, arguments.text("property"));
     fit_to_scalar(mesh, scalar.size(), ply);
   } else {
     mesh = weld(mesh);  // shading is smooth across seams, so that a seam in sight is the texture's
   }
   check_interrupted();
 
-  std::vector<Image> pictures;
-  RenderColour colour;
-  colour.by_material = flag_of(values, "face-materials");
-  if (has(values, "distance-ply")) {
-    colour.scalar = &scalar;
-    if (has(values, "isolines")) colour.isoline_step = number_of(values, "isolines", 0, 1e300);
-    if (has(values, "isolines") && colour.isoline_step == 0) colour.isoline_step = -1;
-    pictures.push_back(render(mesh, colour, options));
-  } else if (has(values, "texture") || colour.by_material) {
-    Image texture;
-    if (has(values, "texture")) texture = read_image(text_of(values, "texture"));
-    if (has(values, "texture")) colour.texture = &texture;
-    pictures.push_back(render(mesh, colour, options));
-  } else {
-    const MaterialTextures textures(mesh);
-    colour.material_textures = textures.pointers;
-    pictures.push_back(render(mesh, colour, options));
-  }
-  for (const std::string& after : texts_of(values, "after")) {
+  std::vector<Image> pictures{first_picture(mesh, scalar, arguments, options)};
+  for (const std::string& after : arguments.texts("after")) {
     check_interrupted();
     const Image texture = read_image(after);
+    RenderColour colour;
     colour.texture = &texture;
     pictures.push_back(render(mesh, colour, options));
   }
@@ -204,23 +199,19 @@ std::vector<Image> model_pictures(const std::string& path, const po::variables_m
 
 }  // namespace
 
-int run_view(const std::vector<std::string>& arguments) {
-  const Command command = make_command();
-  po::variables_map values;
-  if (!parse(command, arguments, values)) return 0;
-  const std::string output = text_of(values, "output");
-  const RenderOptions options = render_options(values);
-  check_combination(values);
+int run_view(const Arguments& arguments) {
+  const std::string output = arguments.text("output");
+  const RenderOptions options = render_options(arguments);
+  check_combination(arguments);
   check_writable_image(output, make_image(1, 1, 3));
   const std::vector<Image> pictures =
-      flag_of(values, "flat")
-          ? flat_pictures(values, options)
-          : model_pictures(argument_of(command, values, "mesh"), values, options);
+      arguments.flag("flat") ? flat_pictures(arguments, options)
+                             : model_pictures(arguments.argument("mesh"), arguments, options);
   check_interrupted();
   ImageWriteOptions eight_bits;
   eight_bits.bits = 8;
   std::vector<std::string> warnings;
-  write_image(output, beside(pictures), eight_bits, &warnings);
+  write_image(output, side_by_side(pictures), eight_bits, &warnings);
   warn(warnings);
   return 0;
 }

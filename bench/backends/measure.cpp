@@ -10,7 +10,7 @@
 #include "onmesh/distance/make_backend.h"
 #include "onmesh/filter/patch_loop.h"
 
-namespace onmesh::compare {
+namespace onmesh::bench {
 namespace {
 
 /// True distances where the filter has its back end.
@@ -56,9 +56,9 @@ Row new_row(const Scene& scene, std::string_view backend) {
   row.mesh = scene.name;
   row.backend = backend;
   row.sigma_texels = scene.sigma_texels;
-  row.spacing = scene.setup.plan.curved_spacing / scene.sigma();
+  row.spacing = scene.setup.lengths.curved_spacing / scene.sigma();
   row.faces = scene.setup.mesh.faces.size();
-  row.texels = scene.setup.plan.texels;
+  row.texels = scene.setup.mesh_plan.texels;
   row.nodes = scene.surface.nodes.nodes.size();
   row.refine_ms = 1e3 * scene.refine_seconds;
   return row;
@@ -249,4 +249,4 @@ Row measure_euclidean(const Scene& scene, const NodeTruth& truth) {
   return row;
 }
 
-}  // namespace onmesh::compare
+}  // namespace onmesh::bench

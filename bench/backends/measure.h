@@ -7,7 +7,7 @@
 #include "backends/scene.h"
 #include "onmesh/measure/distance_error.h"
 
-namespace onmesh::compare {
+namespace onmesh::bench {
 
 /// Lengths in units of sigma. NaN = not measured.
 struct Row {
@@ -37,4 +37,4 @@ Row measure_backend(const Scene& scene, DistanceMethod method, const NodeTruth& 
 /// Straight lines through space instead of geodesics.
 Row measure_euclidean(const Scene& scene, const NodeTruth& truth);
 
-}  // namespace onmesh::compare
+}  // namespace onmesh::bench

@@ -1,43 +1,15 @@
 #include "backends/observer.h"
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <string>
 
-namespace onmesh::compare {
+#include "numbers.h"
+#include "onmesh/base/process_memory.h"
+
+namespace onmesh::bench {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// The process's resident memory in bytes, now ("VmRSS:") or at its peak ("VmHWM:").
-double resident(const std::string& key) {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  while (status >> word) {
-    double kilobytes = 0;
-    if (word == key && status >> kilobytes) return 1024 * kilobytes;
-  }
-  return 0;
-}
-
-/// What work() adds to the resident memory at its peak, in bytes.
-template <class Work>
-double peak_memory(Work&& work) {
-  malloc_trim(0);
-  std::ofstream("/proc/self/clear_refs") << "5";  // sets the peak back
-  const double before = resident("VmRSS:");
-  work();
-  return std::max(0.0, resident("VmHWM:") - before);
-}
 
 }  // namespace
 
@@ -80,7 +52,10 @@ void Observer::measure(const Patch& patch, double reach, DistanceTable& table) c
   Patch small = patch;
   small.core_nodes = std::min(kFewRows, patch.core_nodes);
   table = {};
-  memory_ = std::max(memory_, peak_memory([&] { backend_.fill(patch, reach, table); }));
+  const MemoryMeter memory;
+  backend_.fill(patch, reach, table);
+  if (const auto peak = memory.peak())
+    memory_ = std::fmax(memory_, std::max(0.0, double(*peak) - double(memory.before())));
   std::vector<double> full, few;
   for (int i = 0; i < repeats_; ++i) {
     DistanceTable unused;
@@ -169,4 +144,4 @@ Cost Observer::cost() const {
   return cost;
 }
 
-}  // namespace onmesh::compare
+}  // namespace onmesh::bench

@@ -11,7 +11,7 @@
 #include "backends/scene.h"
 #include "onmesh/distance/backend.h"
 
-namespace onmesh::compare {
+namespace onmesh::bench {
 
 /// True distances between the corners of the node faces that the tried texels lie in and all nodes
 /// within the radius: per tried texel and corner.
@@ -81,7 +81,8 @@ class Observer final : public DistanceBackend {
   // Every tried texel is in one core face of one patch, so patches write to places of their own.
   mutable std::vector<std::vector<double>> distances_, node_distances_;
   std::vector<std::vector<std::size_t>> tried_in_face_;
-  mutable double seconds_ = 0, few_seconds_ = 0, rows_ = 0, few_rows_ = 0, memory_ = 0;
+  mutable double seconds_ = 0, few_seconds_ = 0, rows_ = 0, few_rows_ = 0;
+  mutable double memory_ = std::numeric_limits<double>::quiet_NaN();  ///< none known yet
 };
 
-}  // namespace onmesh::compare
+}  // namespace onmesh::bench

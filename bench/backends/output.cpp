@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
-#include "onmesh/base/file_io.h"
-#include "svg_chart.h"
+#include "numbers.h"
 
-namespace onmesh::compare {
+namespace onmesh::bench {
 namespace {
 
 struct Column {
@@ -38,16 +36,6 @@ const Column kColumns[] = {
     {"prepare_us", [](const Row& r) { return r.cost.prepare_us; }},
     {"memory_mb", [](const Row& r) { return r.cost.memory_mb; }},
 };
-
-std::string format(const char* pattern, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, pattern, value);
-  return buffer;
-}
-
-std::string number(const char* pattern, double value, const char* missing = "-") {
-  return std::isfinite(value) ? format(pattern, value) : missing;
-}
 
 /// An error in sigma: three digits after the point, two significant ones below.
 std::string small(double value) {
@@ -101,8 +89,7 @@ double median_over_meshes(const std::vector<Row>& rows, double sigma, const std:
       values.push_back(value(row));
   }
   if (values.empty()) return Row::kUnmeasured;
-  std::sort(values.begin(), values.end());
-  return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
+  return median(std::move(values));
 }
 
 bool timed(const std::vector<Row>& rows, const std::string& backend) {
@@ -160,31 +147,6 @@ std::string cost_table(const std::vector<Row>& rows, const std::vector<double>& 
   return out;
 }
 
-/// One panel per mesh, one series per back end that has such numbers.
-Chart chart_of(const std::vector<Row>& rows, double (*value)(const Row&)) {
-  Chart chart;
-  chart.x_label = "sigma in texels";
-  chart.x = distinct(rows, &Row::sigma_texels);
-  const std::vector<std::string> meshes = distinct(rows, &Row::mesh);
-  for (const std::string& mesh : meshes) chart.panels.push_back({mesh, {}});
-  const std::vector<std::string> backends = distinct(rows, &Row::backend);
-  for (std::size_t b = 0; b < backends.size(); ++b) {
-    if (std::none_of(rows.begin(), rows.end(), [&](const Row& row) {
-          return row.backend == backends[b] && row.skipped.empty() && std::isfinite(value(row));
-        }))
-      continue;
-    chart.series.push_back({backends[b], b});
-    for (std::size_t m = 0; m < meshes.size(); ++m) {
-      auto& series = chart.panels[m].values.emplace_back();
-      for (const double sigma : chart.x) {
-        const Row* row = find(rows, meshes[m], sigma, backends[b]);
-        series.push_back(row != nullptr ? value(*row) : Row::kUnmeasured);
-      }
-    }
-  }
-  return chart;
-}
-
 }  // namespace
 
 std::string text_header() {
@@ -239,23 +201,4 @@ std::string markdown(const std::vector<Row>& rows) {
          cost_table(rows, sigmas, backends);
 }
 
-void write_plots(const std::string& folder, const std::vector<Row>& rows) {
-  Chart errors = chart_of(rows, [](const Row& r) { return r.error.mean; });
-  errors.title = "Mean error of distances within the kernel";
-  errors.y_label = "error / sigma";
-  errors.logarithmic = true;
-  errors.lowest = 1e-5;
-  Chart quality = chart_of(rows, [](const Row& r) { return r.psnr_gaussian; });
-  quality.title = "Gaussian filter against its definition with exact distances";
-  quality.y_label = "PSNR / dB";
-  Chart times = chart_of(rows, [](const Row& r) { return r.cost.us_per_source; });
-  times.title = "Time for the distances from one node, precomputation included";
-  times.y_label = "microseconds";
-  times.logarithmic = true;
-  times.lowest = 1e-3;
-  write_file(folder + "/backend-errors.svg", svg(errors));
-  write_file(folder + "/backend-psnr.svg", svg(quality));
-  write_file(folder + "/backend-times.svg", svg(times));
-}
-
-}  // namespace onmesh::compare
+}  // namespace onmesh::bench

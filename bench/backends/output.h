@@ -1,4 +1,4 @@
-// The comparison as text, CSV, Markdown and plots.
+// The comparison as text, CSV and Markdown.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 #include "backends/measure.h"
 
-namespace onmesh::compare {
+namespace onmesh::bench {
 
 /// One line of the table on the terminal, and the lines above the first.
 std::string text_header();
@@ -20,8 +20,4 @@ std::string csv(const std::vector<Row>& rows);
 /// kernel size.
 std::string markdown(const std::vector<Row>& rows);
 
-/// Writes backend-errors.svg, backend-psnr.svg and backend-times.svg into the folder.
-/// \throw FileError
-void write_plots(const std::string& folder, const std::vector<Row>& rows);
-
-}  // namespace onmesh::compare
+}  // namespace onmesh::bench

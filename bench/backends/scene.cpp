@@ -7,14 +7,14 @@
 #include <memory>
 
 #include "onmesh/base/error.h"
-#include "onmesh/measure/distance_error.h"
 #include "onmesh/measure/mesh_report.h"
-#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/measure/nearby_geodesics.h"
+#include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/procedural/shapes.h"
 #include "onmesh/procedural/texture.h"
 #include "support/closed_forms.h"
 
-namespace onmesh::compare {
+namespace onmesh::bench {
 namespace {
 
 constexpr double kSigmaRange = 0.2;
@@ -95,7 +95,7 @@ std::vector<Subject> built_in_subjects(bool quick) {
 Subject subject_from_file(const std::string& path, int size) {
   return {std::filesystem::path(path).stem().string(), size, [path] { return read_mesh(path); },
           [path](const TriangleMesh& mesh, double radius) {
-            if (!classify(mesh).manifold())
+            if (!report_mesh(mesh).manifold())
               throw InputError(path + ": not manifold, so exact distances are not known");
             return exact_truth(mesh, radius);
           }};
@@ -120,8 +120,8 @@ Scene make_scene(const Subject& subject, double sigma_texels, std::size_t texels
     scene.tried_at[scene.points.texels[centres[i]]] = Index(i);
 
   RefineOptions refine_options;
-  refine_options.spacing = scene.setup.plan.curved_spacing;
-  refine_options.finest = scene.setup.plan.finest_spacing;
+  refine_options.spacing = scene.setup.lengths.curved_spacing;
+  refine_options.finest = scene.setup.lengths.finest_spacing;
   const double start = thread_seconds();
   scene.surface = refine(mesh, scene.setup.cleaning, refine_options);
   scene.refine_seconds = thread_seconds() - start;
@@ -138,4 +138,4 @@ Scene make_scene(const Subject& subject, double sigma_texels, std::size_t texels
   return scene;
 }
 
-}  // namespace onmesh::compare
+}  // namespace onmesh::bench

@@ -10,7 +10,7 @@
 #include "onmesh/samples/samples.h"
 #include "support/brute_force.h"
 
-namespace onmesh::compare {
+namespace onmesh::bench {
 
 /// A mesh to compare on.
 struct Subject {
@@ -43,7 +43,7 @@ struct Scene {
   std::vector<Index> tried_at;       ///< per texel: into tried, or kNone
   std::vector<NodePoint> places;     ///< per texel; face kNone = no claim or more than one
 
-  double sigma() const { return setup.plan.sigma_spatial; }
+  double sigma() const { return setup.lengths.sigma_spatial; }
   Weights weights(FilterKind kind) const;
   Distances truth(double radius) const { return truth_on(setup.mesh, radius); }
 };
@@ -56,4 +56,4 @@ Scene make_scene(const Subject& subject, double sigma_texels, std::size_t texels
 /// CPU time of this thread.
 double thread_seconds();
 
-}  // namespace onmesh::compare
+}  // namespace onmesh::bench

@@ -1,8 +1,9 @@
-# Runs small benchmarks of the whole filter with BENCH, turns them into tables and plots with PLOTS,
-# with files in WORK, and checks that all numbers are there.
-# cmake -DBENCH=... -DPLOTS=... -DMESH=... -DWORK=... -P check_scaling.cmake
+# Runs small benchmarks of the whole filter with BENCH, turns them into tables and plots with TABLES
+# and bench/make_plots, with files in WORK, and checks that all numbers are there.
+# cmake -DBENCH=... -DTABLES=... -DMESH=... -DWORK=... -P check.cmake
 
 cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/../check_plots.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
@@ -14,7 +15,7 @@ execute_process(
 file(WRITE ${WORK}/README.md
   "before\n<!-- scaling: begin -->\nold\n<!-- scaling: end -->\nafter\n")
 execute_process(
-  COMMAND ${PLOTS} ${WORK}/scaling.json --markdown ${WORK}/tables.md --plots ${WORK}
+  COMMAND ${TABLES} ${WORK}/scaling.json --markdown ${WORK}/tables.md --csv ${WORK}/scaling.csv
     --readme ${WORK}/README.md
   COMMAND_ERROR_IS_FATAL ANY)
 
@@ -50,18 +51,29 @@ if(NOT readme MATCHES "^before\n<!-- scaling: begin -->\n.*\n[|] ${texture} .*\n
   message(FATAL_ERROR "the tables are not where they should be:\n${readme}")
 endif()
 
+# Every line of the CSV file is a point of a plot, every series in it a name in the legend.
+file(STRINGS ${WORK}/scaling.csv rows)
+set(pictures)
 foreach(family texels sigma threads mesh_size)
-  file(READ ${WORK}/scaling-${family}.svg plot)
-  if(NOT plot MATCHES "^<svg .*<polyline .*</svg>\n$" OR plot MATCHES "nan|inf[^o]")
-    message(FATAL_ERROR "scaling-${family}.svg is not a plot of numbers")
+  set(of_family ${rows})
+  list(FILTER of_family INCLUDE REGEX "^${family},[^,]+,[^,]+,[0-9]+,[0-9.e-]+$")
+  list(LENGTH of_family points)
+  if(points LESS 2)
+    message(FATAL_ERROR "scaling.csv has ${points} times by ${family}")
   endif()
+  list(TRANSFORM of_family REPLACE "^[^,]+,[^,]+,([^,]+),.*" "\\1" OUTPUT_VARIABLE series)
+  list(REMOVE_DUPLICATES series)
+  list(LENGTH series names)
+  math(EXPR markers "${points} + ${names}")
+  list(APPEND pictures scaling-${family}.svg ${markers})
 endforeach()
+check_plots(scaling ${WORK}/scaling.csv ${pictures})
 
 # What it cannot read or write is said, and nothing is changed.
 file(WRITE ${WORK}/plain.md "no markers\n")
 foreach(arguments "${WORK}/plain.md" "${WORK}/scaling.json;--readme;${WORK}/plain.md")
-  execute_process(COMMAND ${PLOTS} ${arguments} RESULT_VARIABLE code ERROR_VARIABLE error)
-  if(NOT code EQUAL 3 OR NOT error MATCHES "^onmesh_bench_plots: ")
+  execute_process(COMMAND ${TABLES} ${arguments} RESULT_VARIABLE code ERROR_VARIABLE error)
+  if(NOT code EQUAL 3 OR NOT error MATCHES "^onmesh_bench_tables: ")
     message(FATAL_ERROR "${arguments}: exit code ${code}, ${error}")
   endif()
 endforeach()

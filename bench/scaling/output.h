@@ -1,4 +1,4 @@
-// The measurements of the whole filter as Markdown and plots.
+// The measurements of the whole filter as Markdown and CSV.
 #pragma once
 
 #include <string>
@@ -14,15 +14,14 @@ std::string summary(const Results& results);
 /// did.
 std::string details(const Results& results);
 
-/// Writes scaling-texels.svg, scaling-sigma.svg, scaling-threads.svg and scaling-mesh_size.svg into
-/// the folder, as far as there are results. \throw FileError
-void write_plots(const std::string& folder, const Results& results);
-
-/// Links to these plots in Markdown.
-std::string plot_links(const std::string& folder, const Results& results);
+/// What the plots show, one line per point: plot (the family), panel, series (a method or OpenCV),
+/// x, seconds.
+std::string csv(const Results& results);
 
 /// The text with all between the lines "<!-- scaling: begin -->" and "<!-- scaling: end -->"
-/// replaced. \throw InputError if they are not there
+/// replaced.
+///
+/// \throw InputError if they are not there
 std::string with_summary(const std::string& text, const std::string& summary);
 
 }  // namespace onmesh::bench

@@ -1,9 +1,11 @@
 #include "scaling/planar_filter.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 #include <vector>
+
+#include "numbers.h"
 
 #ifdef ONMESH_BENCH_OPENCV
 #include <opencv2/core.hpp>
@@ -46,8 +48,7 @@ std::optional<double> time_planar_filter(const Image& image, const PlanarFilter&
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     seconds.push_back(taken.count());
   }
-  std::sort(seconds.begin(), seconds.end());
-  return seconds[seconds.size() / 2];
+  return median(std::move(seconds));
 }
 
 #else

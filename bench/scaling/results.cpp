@@ -1,9 +1,9 @@
 #include "scaling/results.h"
 
-#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "numbers.h"
 #include "onmesh/base/error.h"
 #include "onmesh/base/file_io.h"
 
@@ -28,11 +28,6 @@ Result named(const std::string& name) {
     begin = end + 1;
   }
   return result;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
 }
 
 /// Every number of the runs, by name.

@@ -25,7 +25,9 @@ struct Results {
 };
 
 /// Add a file's benchmarks, in its order; those that failed are left out.
-/// \throw InputError if it is no JSON as Google Benchmark writes it; FileError
+///
+/// \throw InputError if it is no JSON as Google Benchmark writes it
+/// \throw FileError if it cannot be read
 void read_results(const std::filesystem::path& path, Results& results);
 
 }  // namespace onmesh::bench

@@ -8,9 +8,10 @@
 #include <optional>
 #include <tuple>
 
+#include "numbers.h"
+#include "onmesh/base/process_memory.h"
 #include "onmesh/procedural/texture.h"
 #include "scaling/planar_filter.h"
-#include "scaling/process_memory.h"
 
 namespace onmesh::bench {
 namespace {
@@ -68,12 +69,6 @@ std::string short_name(FilterMethod method) {
                                          : "auto";
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
-
 void count_filter(benchmark::State& state, const FilterReport& report) {
   for (const StageTime& stage : report.stages) {
     std::string name = stage.stage + "_seconds";
@@ -119,7 +114,7 @@ void count_planar(benchmark::State& state, const ScalingCase& c, const Image& te
 
 std::string ScalingCase::name() const {
   return family + "/shape:" + shape + (faces > 0 ? "/faces:" + std::to_string(faces) : "") +
-         "/size:" + std::to_string(size) + "/sigma:" + number(sigma) +
+         "/size:" + std::to_string(size) + "/sigma:" + format("%g", sigma) +
          "/method:" + short_name(method) + "/threads:" + std::to_string(threads);
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers.h"
 #include "onmesh/base/error.h"
 #include "scaling/output.h"
 #include "scaling/views.h"

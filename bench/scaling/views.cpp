@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+
+#include "numbers.h"
 
 namespace onmesh::bench {
 namespace {
@@ -18,20 +19,18 @@ bool same(const Result& a, const Result& b, const std::vector<std::string>& keys
 
 const std::vector<View>& views() {
   static const std::vector<View> all{
-      {"texels", "By size of the texture", {"size"}, "size", "", "texels per side"},
-      {"sigma", "By sigma", {"size", "sigma"}, "sigma", "size", "sigma in texels"},
+      {"texels", "By size of the texture", {"size"}, "size", ""},
+      {"sigma", "By sigma", {"size", "sigma"}, "sigma", "size"},
       {"threads",
        "By threads (in parentheses: times as fast as one)",
        {"size", "threads"},
        "threads",
-       "size",
-       "threads"},
-      {"mesh_size", "By size of the mesh", {"shape", "faces"}, "faces", "shape", "faces"},
-      {"file", "Meshes from files", {"shape", "size", "sigma"}, "", "", ""}};
+       "size"},
+      {"mesh_size", "By size of the mesh", {"shape", "faces"}, "faces", "shape"},
+      {"file", "Meshes from files", {"shape", "size", "sigma"}, "", ""}};
   return all;
 }
 
-/// One per row of the family's table.
 std::vector<Result> distinct_rows(const Results& results, const View& view) {
   std::vector<Result> rows;
   for (const Result& result : results.rows) {
@@ -58,22 +57,6 @@ double any_counter(const Results& results, const View& view, const Result& row,
     if (result != nullptr && std::isfinite(result->counter(name))) return result->counter(name);
   }
   return std::numeric_limits<double>::quiet_NaN();
-}
-
-std::string format(const char* pattern, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, pattern, value);
-  return buffer;
-}
-
-std::string number(const char* pattern, double value) {
-  return std::isfinite(value) ? format(pattern, value) : "-";
-}
-
-std::string with_commas(const std::string& digits) {
-  std::string out = digits;
-  for (std::size_t i = out.size(); i > 3; i -= 3) out.insert(i - 3, 1, ',');
-  return out;
 }
 
 std::string value_name(const std::string& key, const std::string& value) {

@@ -13,7 +13,6 @@ struct View {
   std::string title;
   std::vector<std::string> keys;  ///< the parameters that tell the table's rows apart
   std::string x, panel;           ///< of the plot, among the keys; no plot if x is empty
-  std::string x_label;
 };
 
 /// All families that are shown, in order.
@@ -33,11 +32,6 @@ const Result* find(const Results& results, const View& view, const Result& row,
 double any_counter(const Results& results, const View& view, const Result& row,
                    const std::string& name);
 
-/// printf for one number; "-" in number() if it is not finite.
-std::string format(const char* pattern, double value);
-std::string number(const char* pattern, double value);
-/// 1234567 as 1,234,567.
-std::string with_commas(const std::string& digits);
 /// A parameter's value as it is shown.
 std::string value_name(const std::string& key, const std::string& value);
 

@@ -1,14 +1,15 @@
-#include <Eigen/Geometry>
+#include "onmesh/atlas/gutter.h"
+
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <random>
 #include <set>
 
-#include "onmesh/atlas/gutter.h"
-#include "onmesh/measure/image_difference.h"
+#include "onmesh/measure/seam_error.h"
+#include "onmesh/procedural/shapes.h"
 #include "support/atlas_meshes.h"
+#include "support/cut_meshes.h"
 
 using namespace onmesh;
 
@@ -16,100 +17,7 @@ namespace {
 
 const float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-/// Give every group of faces UVs of its own: uv = place(group, uv before).
-TriangleMesh cut(const TriangleMesh& mesh, const std::function<int(Index)>& group,
-                 const std::function<Vec2(int, const Vec2&)>& place) {
-  TriangleMesh result = mesh;
-  result.uvs.clear();
-  std::map<std::pair<int, Index>, Index> known;
-  for (Index f = 0; f < mesh.faces.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int g = group(f);
-      const auto [it, fresh] =
-          known.try_emplace({g, mesh.face_uvs[f][k]}, Index(result.uvs.size()));
-      if (fresh) result.uvs.push_back(place(g, mesh.uvs[mesh.face_uvs[f][k]]));
-      result.face_uvs[f][k] = it->second;
-    }
-  return result;
-}
-
-/// [0,1]^2 in n x n cells of two triangles, UV = position.
-TriangleMesh grid(Index n) {
-  std::vector<Vec2> uvs;
-  std::vector<std::array<Index, 3>> faces;
-  for (Index y = 0; y <= n; ++y)
-    for (Index x = 0; x <= n; ++x) {
-      uvs.emplace_back(x / double(n), y / double(n));
-      const Index i = y * (n + 1) + x;
-      if (x == n || y == n) continue;
-      faces.push_back({i, i + 1, i + n + 2});
-      faces.push_back({i, i + n + 2, i + n + 1});
-    }
-  return flat(uvs, faces);
-}
-
-/// The surface of [0,1]^3, n x n cells a side, each side a chart turned by its own angle.
-TriangleMesh cube(Index n) {
-  TriangleMesh mesh;
-  std::map<std::array<int, 3>, Index> known;
-  for (int side = 0; side < 6; ++side) {
-    const int axis = side / 2, u_axis = (axis + 1) % 3, v_axis = (axis + 2) % 3;
-    const auto corner = [&](Index i, Index j) {
-      std::array<int, 3> p{};
-      p[std::size_t(axis)] = side % 2 ? int(n) : 0;
-      p[std::size_t(u_axis)] = int(side % 2 ? i : n - i);
-      p[std::size_t(v_axis)] = int(j);
-      const auto [it, fresh] = known.try_emplace(p, Index(mesh.positions.size()));
-      if (fresh) mesh.positions.push_back(Vec3(p[0], p[1], p[2]) / double(n));
-      return it->second;
-    };
-    const auto first = Index(mesh.uvs.size());
-    const double angle = 0.4 * side;
-    for (Index j = 0; j <= n; ++j)
-      for (Index i = 0; i <= n; ++i) {
-        const Vec2 d(0.2 * (i / double(n) - 0.5), 0.2 * (j / double(n) - 0.5));
-        mesh.uvs.emplace_back(
-            0.17 + 0.33 * (side % 3) + std::cos(angle) * d.x() - std::sin(angle) * d.y(),
-            0.25 + 0.5 * (side / 3) + std::sin(angle) * d.x() + std::cos(angle) * d.y());
-        if (i == n || j == n) continue;
-        const Index at = first + j * (n + 1) + i;
-        mesh.faces.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)});
-        mesh.face_uvs.push_back({at, at + 1, at + n + 2});
-        mesh.faces.push_back({corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)});
-        mesh.face_uvs.push_back({at, at + n + 2, at + n + 1});
-      }
-  }
-  return mesh;
-}
-
-/// Covered texels get function(surface position), all others `rest`.
-Image paint(const TriangleMesh& mesh, const TexelMap& map,
-            const std::function<double(const Vec3&)>& function, float rest) {
-  Image image = make_image(map.width, map.height, 1);
-  image.pixels.assign(image.pixels.size(), rest);
-  for (Index f = 0; f < mesh.faces.size(); ++f)
-    for (Index i = map.face_offsets[f]; i < map.face_offsets[f + 1]; ++i) {
-      const Vec3 b = map.barycentric(f, map.claims[i]);
-      const auto p = mesh.corners(f);
-      *image.texel(map.texel(map.claims[i])) =
-          float(function(b[0] * p[0] + b[1] * p[1] + b[2] * p[2]));
-    }
-  return image;
-}
-
 double linear(const Vec3& p) { return 0.3 + 0.4 * p.x() + 0.2 * p.y() - 0.1 * p.z(); }
-
-/// The square cut at x = 1/2, its halves turned, scaled and apart.
-TriangleMesh halves(Index n) {
-  const TriangleMesh mesh = grid(n);
-  const auto side = [&](Index f) { return int(f / 2 % n >= n / 2); };
-  return cut(mesh, side, [](int g, const Vec2& uv) {
-    const double angle = g ? 0.5 : -0.2, scale = g ? 0.4 : 0.46;
-    const Vec2 d = scale * (uv - Vec2(g ? 0.75 : 0.25, 0.5));
-    return Vec2((g ? 0.7 : 0.3) + std::cos(angle) * d.x() - std::sin(angle) * d.y(),
-                0.5 + std::sin(angle) * d.x() + std::cos(angle) * d.y());
-  });
-}
 
 }  // namespace
 
@@ -160,7 +68,7 @@ TEST_CASE("a linear texture goes on linearly over the seams of a flat mesh", "[g
 }
 
 TEST_CASE("a piece cut out of a flat sheet leaves no seam in a linear texture", "[gutter]") {
-  const TriangleMesh sheet = grid(6);
+  const TriangleMesh sheet = make_plane(6, 6);
   const auto piece = [](Index f) {
     const Index x = f / 2 % 6, y = f / 12;
     return int(x >= 2 && x < 4 && y >= 1 && y < 4);
@@ -188,7 +96,7 @@ TEST_CASE("an edge of the texture just beyond a seam is not drawn onto a coarser
   // The right half has five times as many texels per length; it is black from 0.4 of the left
   // half's texels on. The left half is white.
   const TriangleMesh mesh = cut(
-      grid(2), [](Index f) { return int(f / 2 % 2); },
+      make_plane(2, 2), [](Index f) { return int(f / 2 % 2); },
       [](int g, const Vec2& uv) {
         return g == 0 ? Vec2(0.02 + 0.2 * uv.x(), 0.02 + 0.2 * uv.y())
                       : Vec2(0.4 + (uv.x() - 0.5), 0.02 + 0.96 * uv.y());
@@ -210,7 +118,7 @@ TEST_CASE("an edge of the texture just beyond a seam is not drawn onto a coarser
 
 TEST_CASE("a constant texture stays constant to the bit", "[gutter]") {
   for (const float value : {0.1F, 0.7F, -3.3F}) {
-    for (const TriangleMesh& mesh : {halves(6), cube(1), cube(5)}) {
+    for (const TriangleMesh& mesh : {halves(6), turned_cube(1), turned_cube(5)}) {
       const TexelMap map = make_texel_map(mesh, 75, 64);
       Image image = paint(
           mesh, map, [&](const Vec3&) { return double(value); }, kNaN);
@@ -250,7 +158,7 @@ TEST_CASE("just touched texels and rings are filled, nothing else changes", "[gu
 TEST_CASE("look-ups anywhere on charts see only covered and filled texels", "[gutter]") {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(0, 1);
-  for (const TriangleMesh& mesh : {halves(6), cube(1), cube(7)}) {
+  for (const TriangleMesh& mesh : {halves(6), turned_cube(1), turned_cube(7)}) {
     const TexelMap map = make_texel_map(mesh, 40, 50);
     Image image = paint(mesh, map, linear, kNaN);
     fill_gutter(mesh, map, 1, image);
@@ -266,7 +174,7 @@ TEST_CASE("look-ups anywhere on charts see only covered and filled texels", "[gu
 }
 
 TEST_CASE("seams of a cube's smooth texture close as texels shrink", "[gutter]") {
-  const TriangleMesh mesh = cube(3);
+  const TriangleMesh mesh = turned_cube(3);
   double last = 1;
   for (const int size : {60, 120, 240}) {
     const TexelMap map = make_texel_map(mesh, size, size);
@@ -355,7 +263,7 @@ TEST_CASE("charts thinner than a texel are extended from what they have", "[gutt
 }
 
 TEST_CASE("without faces there is nothing to fill", "[gutter]") {
-  TriangleMesh mesh = grid(1);
+  TriangleMesh mesh = make_plane(1, 1);
   mesh.face_uvs.assign(2, {kNone, kNone, kNone});
   const TexelMap map = make_texel_map(mesh, 5, 5);
   Image image = make_image(5, 5, 3);

@@ -1,8 +1,10 @@
 // Filters a small cube through the installed library: exit code 0 if the noise got less.
 #include <onmesh/filter/filter.h>
 #include <onmesh/procedural/shapes.h>
+#include <onmesh/version.h>
 
 #include <cstdio>
+#include <cstring>
 #include <exception>
 
 namespace {
@@ -19,6 +21,8 @@ double roughness(const onmesh::Image& image) {
 }  // namespace
 
 int main() try {
+  if (std::strcmp(onmesh::version(), ONMESH_VERSION_STRING) != 0) return 2;
+
   const onmesh::TriangleMesh mesh = onmesh::make_cube();
   onmesh::SurfaceTextureOptions texture;
   texture.noise = 0.2;

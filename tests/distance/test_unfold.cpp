@@ -6,7 +6,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh/clean.h"
+#include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/patches/grow_patch.h"
 #include "onmesh/patches/partition.h"
 #include "support/distance_errors.h"

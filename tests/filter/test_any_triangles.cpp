@@ -103,7 +103,7 @@ TEST_CASE("the report says that and why a mesh is not manifold", "[soup]") {
   CHECK(report.warnings.empty());
   options.distance = DistanceMethod::exact;
   CHECK_THROWS_WITH(filter(make_book(3), texture, options),
-                    "--distance exact: the mesh is not manifold (3 edges have more than two "
+                    "distance=exact: the mesh is not manifold (3 edges have more than two "
                     "faces); use unfold");
 }
 
@@ -277,7 +277,7 @@ TEST_CASE("on flat faces no path is shorter than the straight line, however thin
 /// Other colours in the texels of one component.
 Image repaint(const TriangleMesh& mesh, const Image& texture, Index component) {
   const TexelMap map = make_texel_map(mesh, texture.width, texture.height);
-  const MeshReport report = classify(mesh);
+  const MeshReport report = report_mesh(mesh);
   Image image = texture;
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     if (report.component_of_face[f] != component) continue;
@@ -292,7 +292,7 @@ Image repaint(const TriangleMesh& mesh, const Image& texture, Index component) {
 /// Largest difference of two images in the texels of one component.
 double difference(const TriangleMesh& mesh, const Image& a, const Image& b, Index component) {
   const TexelMap map = make_texel_map(mesh, a.width, a.height);
-  const MeshReport report = classify(mesh);
+  const MeshReport report = report_mesh(mesh);
   double worst = 0;
   std::size_t texels = 0;
   for (Index f = 0; f < mesh.faces.size(); ++f) {

@@ -211,57 +211,6 @@ TEST_CASE("moving, turning and scaling mesh and sigma together changes nothing",
   CHECK(db > 80);
 }
 
-/// Two squares apart from each other, the second twice as large, with the same UVs.
-TriangleMesh two_on_one_chart() {
-  TriangleMesh mesh = make_plane(1, 1, 1, 1);
-  const auto vertices = Index(mesh.positions.size());
-  const std::size_t faces = mesh.faces.size();
-  for (Index v = 0; v < vertices; ++v) {
-    mesh.positions.push_back(2 * mesh.positions[v] + Vec3(0, 0, 10));
-  }
-  for (std::size_t f = 0; f < faces; ++f) {
-    const auto corners = mesh.faces[f];
-    mesh.faces.push_back({corners[0] + vertices, corners[1] + vertices, corners[2] + vertices});
-    mesh.face_uvs.push_back(mesh.face_uvs[f]);
-    mesh.face_materials.push_back(mesh.face_materials[f]);
-  }
-  return mesh;
-}
-
-TEST_CASE("texels of several places get the mean by area, or the first face's result", "[filter]") {
-  const TriangleMesh both = two_on_one_chart();
-  const std::size_t half = both.faces.size() / 2;
-  std::vector<bool> first(both.faces.size(), false), second(both.faces.size(), false);
-  std::fill(first.begin(), first.begin() + std::ptrdiff_t(half), true);
-  std::fill(second.begin() + std::ptrdiff_t(half), second.end(), true);
-
-  const Image texture = noise_image(48, 48);
-  FilterOptions options = options_for(FilterKind::gaussian, 1);
-  options.sigma_spatial = {0.06, Length::Unit::mesh};
-  options.node_spacing = Length{0.08, Length::Unit::mesh};
-  options.faces = first;
-  const Image small = filter(both, texture, options);
-  options.faces = second;
-  const Image large = filter(both, texture, options);
-  REQUIRE(psnr(both, small, large) < 60);
-
-  options.faces.clear();
-  FilterReport report;
-  const Image average = filter(both, texture, options, &report);
-  CHECK(report.overlapped == 48 * 48);
-  CHECK(report.warnings.size() == 1);
-  Image expected = texture;
-  for (std::size_t k = 0; k < expected.pixels.size(); ++k) {
-    expected.pixels[k] = (small.pixels[k] + 4 * large.pixels[k]) / 5;
-  }
-  CHECK(psnr(both, average, expected) > 90);
-
-  options.overlap = Overlap::first;
-  CHECK(psnr(both, filter(both, texture, options), small) > 90);
-  options.overlap = Overlap::error;
-  CHECK_THROWS_AS(filter(both, texture, options), InputError);
-}
-
 TEST_CASE("texels that no chart needs stay bit for bit, and so does alpha", "[filter]") {
   const TriangleMesh mesh = make_cube();
   Image texture = noise_image(96, 72, 4);
@@ -365,51 +314,6 @@ TEST_CASE("exact distances and the default agree on a fold", "[filter]") {
   CHECK(report.backend == "exact");
 }
 
-TEST_CASE("options outside their domain are refused by name", "[filter]") {
-  const TriangleMesh mesh = make_plane(1, 1);
-  const Image texture = noise_image(16, 16);
-  const auto message = [&](const std::function<void(FilterOptions&)>& change) -> std::string {
-    FilterOptions options;
-    change(options);
-    try {
-      filter(mesh, texture, options);
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  using O = FilterOptions;
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto contains = [](const char* text) { return Catch::Matchers::Contains(text); };
-  CHECK_THAT(message([](O& o) { o.sigma_spatial.value = 0; }), contains("--sigma-spatial"));
-  CHECK_THAT(message([&](O& o) { o.sigma_spatial.value = nan; }), contains("--sigma-spatial"));
-  CHECK_THAT(message([](O& o) { o.sigma_range = -1; }), contains("--sigma-range"));
-  CHECK_THAT(message([](O& o) { o.radius = Length{0}; }), contains("--radius"));
-  CHECK_THAT(message([](O& o) { o.node_spacing = Length{-2}; }), contains("--node-spacing"));
-  CHECK_THAT(message([](O& o) { o.threads = -1; }), contains("--threads"));
-  CHECK_THAT(message([](O& o) { o.gutter = -1; }), contains("--gutter"));
-  CHECK_THAT(message([](O& o) { o.spacing = Length{1}; }), contains("--spacing"));
-  CHECK_THAT(message([](O& o) { o.r_coef = 1; }), contains("--r-coef"));
-  CHECK_THAT(message([](O& o) {
-               o.samples = SampleKind::poisson;
-               o.spacing = Length{1};
-               o.r_coef = 1;
-             }),
-             contains("exclude each other"));
-  CHECK(message([](O&) {}).empty());
-}
-
-TEST_CASE("a mesh without UVs and a choice without faces are refused", "[filter]") {
-  TriangleMesh mesh = make_plane(2, 2);
-  const Image texture = noise_image(16, 16);
-  FilterOptions options;
-  options.faces.assign(mesh.faces.size(), false);
-  CHECK_THROWS_AS(filter(mesh, texture, options), InputError);
-  options.faces.clear();
-  for (auto& corners : mesh.face_uvs) corners = {kNone, kNone, kNone};
-  CHECK_THROWS_WITH(filter(mesh, texture, options), Catch::Matchers::Contains("no UVs"));
-}
-
 TEST_CASE("an exception from the progress callback stops the work", "[filter]") {
   struct Stop {};
   const TriangleMesh mesh = make_cube();
@@ -422,24 +326,6 @@ TEST_CASE("an exception from the progress callback stops the work", "[filter]") 
   CHECK_THROWS_AS(filter(mesh, texture, options_for(FilterKind::bilateral, 3), nullptr, progress),
                   Stop);
   CHECK(calls > 5);
-}
-
-TEST_CASE("the plan tells what the filter then does", "[filter]") {
-  const TriangleMesh mesh = make_torus(32, 16);
-  const Image texture = noise_image(256, 128);
-  FilterOptions options = options_for(FilterKind::bilateral, 6);
-  options.samples = GENERATE(SampleKind::texel, SampleKind::poisson);
-  if (options.samples == SampleKind::poisson) options.spacing = Length{1.5, Length::Unit::texel};
-  const FilterPlan plan = plan_filter(mesh, texture, options);
-  FilterReport report;
-  filter(mesh, texture, options, &report);
-  CHECK(plan.texels == report.texels);
-  CHECK(plan.sigma_spatial == report.sigma_spatial);
-  CHECK(plan.radius == report.radius);
-  CHECK(double(plan.samples) == Approx(double(report.samples)).epsilon(0.25));
-  CHECK(double(plan.nodes) == Approx(double(report.nodes)).epsilon(0.6));
-  CHECK(report.pairs > 200 * report.texels);
-  CHECK(report.stages.size() == 5);
 }
 
 TEST_CASE("patches without a usable texel keep their texels", "[filter]") {

@@ -7,17 +7,12 @@
 #include <set>
 
 #include "onmesh/measure/mesh_report.h"
+#include "onmesh/mesh/clean.h"
 #include "onmesh/procedural/shapes.h"
+#include "support/small_meshes.h"
 
 namespace onmesh {
 namespace {
-
-void add_face(TriangleMesh& mesh, const std::array<Index, 3>& corners,
-              const std::array<Index, 3>& uvs) {
-  mesh.faces.push_back(corners);
-  mesh.face_uvs.push_back(uvs);
-  mesh.face_materials.push_back(kNone);
-}
 
 /// Every face a second time, wound the other way, with UVs of its own.
 TriangleMesh two_sided(const TriangleMesh& mesh) {
@@ -44,7 +39,8 @@ void shuffle_faces(TriangleMesh& mesh, unsigned seed) {
   mesh = shuffled;
 }
 
-TEST_CASE("a two-sided flag becomes two sheets, in whatever order its faces come", "[sheets]") {
+TEST_CASE("a two-sided flag becomes two sheets, in whatever order its faces come",
+          "[coincident_faces]") {
   for (const unsigned seed : {1U, 2U, 3U}) {
     TriangleMesh flag = two_sided(make_plane(4, 3));
     shuffle_faces(flag, seed);
@@ -56,7 +52,7 @@ TEST_CASE("a two-sided flag becomes two sheets, in whatever order its faces come
     CHECK(report.manifold());
     CHECK(cleaned.faces.size() == 48);
     CHECK(cleaned.positions.size() == 2 * 5 * 4);
-    const MeshReport r = classify(cleaned);
+    const MeshReport r = report_mesh(cleaned);
     CHECK(r.components == 2);
     CHECK(r.duplicate_faces == 0);
     // Each component has the faces of one side.
@@ -68,7 +64,7 @@ TEST_CASE("a two-sided flag becomes two sheets, in whatever order its faces come
   }
 }
 
-TEST_CASE("front faces stay one sheet across seams of their atlas", "[sheets]") {
+TEST_CASE("front faces stay one sheet across seams of their atlas", "[coincident_faces]") {
   TriangleMesh flag = two_sided(make_plane(2, 1));
   // Each face with UVs of its own: nothing but the winding tells front from back.
   flag = loosen(flag);
@@ -76,10 +72,11 @@ TEST_CASE("front faces stay one sheet across seams of their atlas", "[sheets]") 
   CleanReport report;
   const TriangleMesh cleaned = clean(weld(flag), &report);
   CHECK(report.manifold());
-  CHECK(classify(cleaned).components == 2);
+  CHECK(report_mesh(cleaned).components == 2);
 }
 
-TEST_CASE("copies with the same texels are dropped, those without texels give way", "[sheets]") {
+TEST_CASE("copies with the same texels are dropped, those without texels give way",
+          "[coincident_faces]") {
   TriangleMesh mesh = make_plane(1, 1);
   const auto faces = mesh.faces, uvs = mesh.face_uvs;
   add_face(mesh, {faces[0][1], faces[0][2], faces[0][0]}, {uvs[0][1], uvs[0][2], uvs[0][0]});
@@ -103,7 +100,7 @@ TEST_CASE("copies with the same texels are dropped, those without texels give wa
   CHECK(report.duplicates == 0);
 }
 
-TEST_CASE("a decal leaves the wall, which stays in one piece", "[sheets]") {
+TEST_CASE("a decal leaves the wall, which stays in one piece", "[coincident_faces]") {
   for (const bool decal_first : {false, true}) {
     const TriangleMesh wall = make_plane(3, 3);
     TriangleMesh mesh = wall;
@@ -121,7 +118,7 @@ TEST_CASE("a decal leaves the wall, which stays in one piece", "[sheets]") {
     const TriangleMesh cleaned = clean(mesh, &report);
     CHECK(report.separated == 4);
     CHECK(report.manifold());
-    const MeshReport r = classify(cleaned);
+    const MeshReport r = report_mesh(cleaned);
     CHECK(r.components == 2);
     CHECK(r.boundary_edges == 12 + 6);
     std::vector<int> faces(2, 0);
@@ -134,20 +131,20 @@ TEST_CASE("a decal leaves the wall, which stays in one piece", "[sheets]") {
   }
 }
 
-TEST_CASE("a two-sided Moebius strip becomes its orientable double cover", "[sheets]") {
+TEST_CASE("a two-sided Moebius strip becomes its orientable double cover", "[coincident_faces]") {
   const TriangleMesh strip = make_moebius(2);
   CleanReport report;
   const TriangleMesh cleaned = clean(two_sided(strip), &report);
   CHECK(report.manifold());
   CHECK(cleaned.faces.size() == 2 * strip.faces.size());
   CHECK(cleaned.positions.size() == 2 * strip.positions.size());
-  const MeshReport r = classify(cleaned);
+  const MeshReport r = report_mesh(cleaned);
   CHECK(r.components == 1);
   CHECK(r.boundary_loops == 2);
   CHECK(r.orientable);
 }
 
-TEST_CASE("two layers with the same winding are told apart by their UVs", "[sheets]") {
+TEST_CASE("two layers with the same winding are told apart by their UVs", "[coincident_faces]") {
   TriangleMesh mesh = make_plane(3, 2);
   const TriangleMesh base = mesh;
   const auto shift = Index(base.uvs.size());
@@ -160,12 +157,13 @@ TEST_CASE("two layers with the same winding are told apart by their UVs", "[shee
   CleanReport report;
   const TriangleMesh cleaned = clean(mesh, &report);
   CHECK(report.manifold());
-  const MeshReport r = classify(cleaned);
+  const MeshReport r = report_mesh(cleaned);
   CHECK(r.components == 2);
   CHECK(r.charts == 2);
 }
 
-TEST_CASE("parts without any area are left out, flat faces with neighbours are not", "[sheets]") {
+TEST_CASE("parts without any area are left out, flat faces with neighbours are not",
+          "[coincident_faces]") {
   TriangleMesh mesh = make_plane(1, 1);
   const auto first = Index(mesh.positions.size());
   for (const double x : {5.0, 6.0, 8.0}) mesh.positions.emplace_back(x, x, x);

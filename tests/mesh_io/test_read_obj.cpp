@@ -1,9 +1,12 @@
+#include "onmesh/mesh_io/read_obj.h"
+
 #include <catch2/catch.hpp>
 #include <clocale>
 #include <locale>
 
-#include "onmesh/base/error.h"
-#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh_io/read_mesh.h"
+#include "onmesh/mesh_io/write_obj.h"
+#include "support/refused.h"
 #include "support/temp_folder.h"
 
 using namespace onmesh;
@@ -19,19 +22,14 @@ TriangleMesh parse(const std::string& content, std::vector<std::string>* warning
 }
 
 std::string error_of(const std::string& content) {
-  try {
-    parse(content);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return onmesh::error_of(read_obj, "m.obj", content);
 }
 
 using Face = std::array<Index, 3>;
 
 }  // namespace
 
-TEST_CASE("every form of an OBJ face gives the same triangle", "[mesh_io]") {
+TEST_CASE("every form of an OBJ face gives the same triangle", "[read_obj]") {
   const Face none = {kNone, kNone, kNone};
   const std::string head = kSquare + "vn 0 0 1\n";
   for (const std::string face :
@@ -54,14 +52,14 @@ TEST_CASE("every form of an OBJ face gives the same triangle", "[mesh_io]") {
   CHECK_FALSE(mixed.has_uvs(0));
 }
 
-TEST_CASE("a quad becomes a fan that keeps position and UV together", "[mesh_io]") {
+TEST_CASE("a quad becomes a fan that keeps position and UV together", "[read_obj]") {
   const TriangleMesh mesh = parse(kSquare + "f 1/4 2/3 3/2 4/1\n");
   CHECK(mesh.faces == std::vector<Face>{{0, 1, 2}, {0, 2, 3}});
   CHECK(mesh.face_uvs == std::vector<Face>{{3, 2, 1}, {3, 1, 0}});
 }
 
 TEST_CASE("line ends, byte order mark and unknown keywords make no difference to an OBJ",
-          "[mesh_io]") {
+          "[read_obj]") {
   const std::string text = "# c:\\\no thing\ng a b\ns off\nvp 1 2\ncurv2 1 2\n" + kSquare +
                            "l 1 2\np 1\nf 1/1 2/2 3/3\n";
   std::string crlf, cr;
@@ -80,7 +78,7 @@ TEST_CASE("line ends, byte order mark and unknown keywords make no difference to
   CHECK_THAT(error_of("v 0 0 0\r\nv 1 0 0\r\nv 1 x 0\r\n"), StartsWith("m.obj:3: "));
 }
 
-TEST_CASE("numbers in an OBJ may carry weights, colours, signs and exponents", "[mesh_io]") {
+TEST_CASE("numbers in an OBJ may carry weights, colours, signs and exponents", "[read_obj]") {
   const TriangleMesh mesh = parse(
       "v +1 -2.5e-1 1E2\nv 1 0 0 1.0\nv 0 1 0 .5 .5 .5\nv 0 0 1 1 .5 .5 .5\nv 1e-400 -0 5.\n"
       "vt .25\nvt .25 .5\nvt .25 .5 .75\nf 1/1 2/2 3/3\n");
@@ -91,7 +89,7 @@ TEST_CASE("numbers in an OBJ may carry weights, colours, signs and exponents", "
   CHECK(mesh.uvs == std::vector<Vec2>{{0.25, 0}, {0.25, 0.5}, {0.25, 0.5}});
 }
 
-TEST_CASE("numbers are read and written the same in a locale with decimal commas", "[mesh_io]") {
+TEST_CASE("numbers are read and written the same in a locale with decimal commas", "[read_obj]") {
   struct Comma : std::numpunct<char> {
     char do_decimal_point() const override { return ','; }
     char do_thousands_sep() const override { return '.'; }
@@ -110,12 +108,13 @@ TEST_CASE("numbers are read and written the same in a locale with decimal commas
   CHECK(back.positions == mesh.positions);
 }
 
-TEST_CASE("faces may come before the vertices they name, but the vertices must come", "[mesh_io]") {
+TEST_CASE("faces may come before the vertices they name, but the vertices must come",
+          "[read_obj]") {
   CHECK(parse("f 1/1 2/2 3/3\n" + kSquare).faces == std::vector<Face>{{0, 1, 2}});
   CHECK(error_of("\nf 1 2 5\n" + kSquare) == "m.obj:2: vertex index 5 is out of range (4 in all)");
 }
 
-TEST_CASE("a bad OBJ is refused with file and line", "[mesh_io]") {
+TEST_CASE("a bad OBJ is refused with file and line", "[read_obj]") {
   const auto fails = [](const std::string& line) {
     return error_of(kSquare + line + "\nf 1 2 3\n");
   };
@@ -149,7 +148,7 @@ TEST_CASE("a bad OBJ is refused with file and line", "[mesh_io]") {
   CHECK(message.find('\x01') == std::string::npos);
 }
 
-TEST_CASE("a UV that is not finite costs only its own corners", "[mesh_io]") {
+TEST_CASE("a UV that is not finite costs only its own corners", "[read_obj]") {
   std::vector<std::string> warnings;
   const TriangleMesh mesh = parse(kSquare + "vt nan 0\nf 1/1 2/2 3/3\nf 1/1 3/3 4/5\n", &warnings);
   CHECK(mesh.has_uvs(0));
@@ -158,7 +157,7 @@ TEST_CASE("a UV that is not finite costs only its own corners", "[mesh_io]") {
   CHECK_THAT(warnings[0], StartsWith("m.obj: 1 texture coordinates are not finite"));
 }
 
-TEST_CASE("materials stay apart, wherever their library is named", "[mesh_io]") {
+TEST_CASE("materials stay apart, wherever their library is named", "[read_obj]") {
   const TempFolder folder;
   folder.file(
       "some lib.mtl",
@@ -180,7 +179,7 @@ TEST_CASE("materials stay apart, wherever their library is named", "[mesh_io]") 
 }
 
 TEST_CASE("several libraries on a line are all read, a missing one is only a warning",
-          "[mesh_io]") {
+          "[read_obj]") {
   const TempFolder folder;
   folder.file("a.mtl", "newmtl a\nmap_Kd a.png\n");
   folder.file("sub/b.mtl", "newmtl b\nmap_Kd b.png\n");
@@ -195,7 +194,7 @@ TEST_CASE("several libraries on a line are all read, a missing one is only a war
 }
 
 TEST_CASE("map_Kd finds its file behind options, spaces, backslashes and foreign folders",
-          "[mesh_io]") {
+          "[read_obj]") {
   const TempFolder folder;
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"map_Kd a.png", "a.png"},

@@ -11,17 +11,6 @@ namespace onmesh {
 
 using namespace simple;
 
-TEST_CASE("triangle area is right for needles and zero for impossible triangles", "[node_mesh]") {
-  CHECK(triangle_area(3, 4, 5) == Approx(6));
-  CHECK(triangle_area(5, 3, 4) == triangle_area(3, 4, 5));
-  // Base 1e-9, height 1: the naive Heron formula loses all digits.
-  CHECK(triangle_area(std::hypot(1, 0.5e-9), 1e-9, std::hypot(1, 0.5e-9)) ==
-        Approx(0.5e-9).epsilon(1e-12));
-  CHECK(triangle_area(1, 2, 3) == 0);
-  CHECK(triangle_area(1, 1, 3) == 0);
-  CHECK(triangle_area(0, 0, 0) == 0);
-}
-
 TEST_CASE("a mesh's vertices and faces become nodes and node faces", "[node_mesh]") {
   TriangleMesh mesh = blob(2);
   mesh.positions.emplace_back(9, 9, 9);  // used by no face

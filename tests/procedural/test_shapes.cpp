@@ -1,16 +1,15 @@
+#include "onmesh/procedural/shapes.h"
+
+#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <set>
-
-#include <Eigen/Dense>
 
 #include "onmesh/base/error.h"
 #include "onmesh/measure/mesh_report.h"
-#include "onmesh/procedural/shapes.h"
-#include "support/recut_atlas.h"
+#include "support/uv_charts.h"
 
 using namespace onmesh;
 
@@ -57,11 +56,6 @@ double surface_area(const TriangleMesh& mesh) {
   return area;
 }
 
-double uv_area(const std::array<Vec2, 3>& p) {
-  const Vec2 a = p[1] - p[0], b = p[2] - p[0];
-  return (a.x() * b.y() - a.y() * b.x()) / 2;
-}
-
 double signed_volume(const TriangleMesh& mesh) {
   double volume = 0;
   for (Index f = 0; f < mesh.faces.size(); ++f) {
@@ -78,26 +72,6 @@ std::map<std::pair<Index, Index>, int> directed_edges(const TriangleMesh& mesh) 
     for (int k = 0; k < 3; ++k) ++count[{face[k], face[(k + 1) % 3]}];
   }
   return count;
-}
-
-// Chart number per face: faces connected through equal UV indices.
-std::vector<Index> charts_of(const TriangleMesh& mesh, Index& charts) {
-  std::vector<Index> root(mesh.uvs.size());
-  std::iota(root.begin(), root.end(), Index(0));
-  const auto find = [&](Index i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  for (const auto& uv : mesh.face_uvs) {
-    root[find(uv[1])] = find(uv[0]);
-    root[find(uv[2])] = find(uv[0]);
-  }
-  std::map<Index, Index> number;
-  std::vector<Index> chart;
-  for (const auto& uv : mesh.face_uvs)
-    chart.push_back(number.try_emplace(find(uv[0]), number.size()).first->second);
-  charts = Index(number.size());
-  return chart;
 }
 
 // Ratios of edge lengths in space and in UVs (scaled by width and height); all 1 = isometric.
@@ -118,7 +92,7 @@ TEST_CASE("the Moebius strip is one-sided, closed, and true to its chart", "[sha
   for (const int n : {1, 2, 5}) {
     for (const double width : {1.0, 0.3}) {
       const TriangleMesh mesh = make_moebius(n, 8, width);
-      const MeshReport r = classify(mesh);
+      const MeshReport r = report_mesh(mesh);
       CHECK_FALSE(r.orientable);
       CHECK(r.nonmanifold_edges + r.nonmanifold_vertices == 0);
       CHECK(r.components == 1);
@@ -144,7 +118,7 @@ TEST_CASE("the Moebius strip is one-sided, closed, and true to its chart", "[sha
 }
 
 TEST_CASE("the bow tie's halves share one vertex and nothing else", "[shapes]") {
-  const MeshReport r = classify(make_bow_tie(3));
+  const MeshReport r = report_mesh(make_bow_tie(3));
   CHECK(r.nonmanifold_vertices == 1);
   CHECK(r.nonmanifold_edges == 0);
   CHECK(r.components == 1);
@@ -228,8 +202,7 @@ TEST_CASE("charts neither overlap nor come closer than four texels at 256 x 256"
   constexpr int kSize = 256;
   for (const auto& [name, mesh] : all_shapes()) {
     INFO(name);
-    Index charts = 0;
-    const std::vector<Index> chart_of = charts_of(mesh, charts);
+    const std::vector<Index> chart_of = uv_charts(mesh).numbers;
     std::vector<Index> owner(kSize * kSize, kNone);  // the chart of the texel's centre
     double total = 0;
     long centres = 0;
@@ -276,9 +249,7 @@ TEST_CASE("the number of charts is as documented", "[shapes]") {
       {"cylinder", 1}, {"saddle", 1},       {"book", 3}};
   for (const auto& [name, mesh] : all_shapes()) {
     INFO(name);
-    Index charts = 0;
-    charts_of(mesh, charts);
-    CHECK(charts == expected.at(name));
+    CHECK(uv_charts(mesh).count == expected.at(name));
   }
 }
 
@@ -359,138 +330,4 @@ TEST_CASE("shape parameters outside their domain are refused", "[shapes]") {
   CHECK_THROWS_AS(make_torus(8, 8, 1, 1), UsageError);
   CHECK_THROWS_AS(make_sphere(9), UsageError);
   CHECK_THROWS_AS(make_folded_sheet(2, 1, 1, 180), UsageError);
-  CHECK_THROWS_AS(make_texture(0, 1, Pattern::dots, 0, 1), UsageError);
-  CHECK_THROWS_AS(make_texture(1, 1, Pattern::dots, 2, 1), UsageError);
-}
-
-TEST_CASE("patterns stay in range, repeat with their seed and differ from each other", "[shapes]") {
-  std::set<std::vector<float>> seen;
-  for (const Pattern pattern :
-       {Pattern::checker, Pattern::stripes, Pattern::noise, Pattern::gradient, Pattern::dots}) {
-    const Image image = make_texture(40, 30, pattern, 0.2, 3);
-    CHECK(image.pixels == make_texture(40, 30, pattern, 0.2, 3).pixels);
-    CHECK(image.pixels != make_texture(40, 30, pattern, 0.2, 4).pixels);
-    const auto [low, high] = std::minmax_element(image.pixels.begin(), image.pixels.end());
-    CHECK(*low >= 0);
-    CHECK(*high <= 1);
-    CHECK(*high - *low > 0.3);
-    seen.insert(make_texture(40, 30, pattern, 0, 3).pixels);
-  }
-  CHECK(seen.size() == 5);
-}
-
-TEST_CASE("texture noise is uniform around zero", "[shapes]") {
-  const Image clean = make_texture(256, 256, Pattern::gradient, 0, 1),
-              noisy = make_texture(256, 256, Pattern::gradient, 0.1, 1);
-  double sum = 0, squares = 0;
-  for (std::size_t i = 0; i < clean.pixels.size(); ++i) {
-    const double d = double(noisy.pixels[i]) - clean.pixels[i];
-    sum += d, squares += d * d;
-  }
-  const double n = double(clean.pixels.size());
-  CHECK(std::abs(sum / n) < 1e-3);
-  CHECK(squares / n == Approx(0.01 / 3).epsilon(0.02));
-}
-
-TEST_CASE("a surface texture is continuous across seams", "[shapes]") {
-  // On the gradient, colours are linear in position: any texel of any chart must show its own
-  // place.
-  const TriangleMesh cube = make_cube();
-  SurfaceTextureOptions options;
-  options.pattern = Pattern::gradient;
-  const Image image = make_surface_texture(cube, 128, 128, options);
-  for (Index f = 0; f < cube.faces.size(); ++f) {
-    const auto uv = cube.corner_uvs(f);
-    const auto p = cube.corners(f);
-    for (const Vec3& b : {Vec3(0.6, 0.2, 0.2), Vec3(0.1, 0.2, 0.7)}) {
-      const Vec2 at = b[0] * uv[0] + b[1] * uv[1] + b[2] * uv[2];
-      const Vec3 position = b[0] * p[0] + b[1] * p[1] + b[2] * p[2];
-      const int x = int(at.x() * 128), y = int((1 - at.y()) * 128);
-      for (int c = 0; c < 3; ++c) {
-        const double expected = 0.1 + 0.8 * (position[c] + 1) / 2;
-        CHECK(std::abs(double(image.texel(Index(y * 128 + x))[c]) - expected) < 0.8 * 0.75 / 28);
-      }
-    }
-  }
-}
-
-TEST_CASE("a recut atlas shows the same values at the same surface points", "[shapes]") {
-  const std::vector<Named> shapes{
-      {"plane", make_plane(8, 8)}, {"cube", make_cube(7)}, {"gentle sheet", make_gentle_sheet(16)}};
-  for (const auto& [name, mesh] : shapes) {
-    INFO(name);
-    const Image image = make_texture(128, 128, Pattern::noise, 0.3, 9);
-    const RecutAtlas recut = recut_atlas(mesh, image, 11);
-    Index before = 0, after = 0;
-    charts_of(mesh, before);
-    charts_of(recut.mesh, after);
-    CHECK(after == recut.charts);
-    CHECK(after > before);
-    CHECK(recut.mesh.faces == mesh.faces);
-
-    // Texel centres: the same face, the same barycentric coordinates, the same value.
-    const int w = recut.image.width, h = recut.image.height;
-    std::set<Index> targets;
-    for (Index i = 0; i < recut.new_texel.size(); ++i) {
-      const Index to = recut.new_texel[i];
-      if (to == kNone) continue;
-      CHECK(targets.insert(to).second);
-      CHECK(std::equal(image.texel(i), image.texel(i) + 3, recut.image.texel(to)));
-    }
-    std::size_t covered = 0;
-    for (Index f = 0; f < mesh.faces.size(); ++f) {
-      const auto uv = mesh.corner_uvs(f), moved = recut.mesh.corner_uvs(f);
-      Eigen::Matrix2d edges;
-      edges << uv[1] - uv[0], uv[2] - uv[0];
-      for (int y = 0; y < 128; ++y) {
-        for (int x = 0; x < 128; ++x) {
-          const Vec2 b = edges.inverse() * (Vec2((x + 0.5) / 128, 1 - (y + 0.5) / 128) - uv[0]);
-          if (b.minCoeff() < 1e-6 || b.sum() > 1 - 1e-6) continue;
-          ++covered;
-          const Vec2 at = moved[0] + b.x() * (moved[1] - moved[0]) + b.y() * (moved[2] - moved[0]);
-          const double px = at.x() * w - 0.5, py = (1 - at.y()) * h - 0.5;
-          CHECK(std::abs(px - std::round(px)) < 1e-9);
-          CHECK(std::abs(py - std::round(py)) < 1e-9);
-          CHECK(recut.new_texel[Index(y * 128 + x)] == Index(std::round(py) * w + std::round(px)));
-        }
-      }
-    }
-    CHECK(covered > 3000);
-    // UV areas in texels are kept, so nothing was mirrored or scaled.
-    for (Index f = 0; f < mesh.faces.size(); ++f) {
-      CHECK(uv_area(recut.mesh.corner_uvs(f)) * w * h ==
-            Approx(uv_area(mesh.corner_uvs(f)) * 128 * 128));
-    }
-  }
-}
-
-TEST_CASE("recut charts lie within the atlas, four texels apart", "[shapes]") {
-  const TriangleMesh mesh = make_plane(16, 16);
-  const Image image = make_texture(64, 64, Pattern::checker, 0, 1);
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const RecutAtlas recut = recut_atlas(mesh, image, seed);
-    Index charts = 0;
-    const std::vector<Index> chart_of = charts_of(recut.mesh, charts);
-    std::vector<std::array<double, 4>> boxes(charts, {1e9, 1e9, -1e9, -1e9});
-    for (Index f = 0; f < recut.mesh.faces.size(); ++f) {
-      for (const Vec2& uv : recut.mesh.corner_uvs(f)) {
-        auto& [x0, y0, x1, y1] = boxes[chart_of[f]];
-        x0 = std::min(x0, uv.x() * recut.image.width),
-        x1 = std::max(x1, uv.x() * recut.image.width);
-        y0 = std::min(y0, uv.y() * recut.image.height),
-        y1 = std::max(y1, uv.y() * recut.image.height);
-      }
-    }
-    for (Index i = 0; i < charts; ++i) {
-      CHECK(boxes[i][0] > 3.9);
-      CHECK(boxes[i][1] > 3.9);
-      CHECK(boxes[i][2] < recut.image.width - 3.9);
-      CHECK(boxes[i][3] < recut.image.height - 3.9);
-      for (Index j = 0; j < i; ++j) {
-        const bool apart = boxes[i][0] > boxes[j][2] + 3.9 || boxes[j][0] > boxes[i][2] + 3.9 ||
-                           boxes[i][1] > boxes[j][3] + 3.9 || boxes[j][1] > boxes[i][3] + 3.9;
-        CHECK(apart);
-      }
-    }
-  }
 }

@@ -1,49 +1,22 @@
+#include "onmesh/render/render.h"
+
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Dense>
-
 #include "onmesh/base/error.h"
-#include "onmesh/measure/image_difference.h"
+#include "onmesh/image/lookup.h"
 #include "onmesh/procedural/shapes.h"
-#include "onmesh/render/raster.h"
-#include "onmesh/render/render.h"
+#include "support/pictures.h"
 
 using namespace onmesh;
 
 namespace {
 
 const Vec3 kBlack(0, 0, 0);
-
-RenderOptions facing(int size) {
-  RenderOptions options;
-  options.width = options.height = size;
-  options.azimuth_degrees = options.elevation_degrees = 0;
-  options.light = false;
-  options.background = kBlack;
-  return options;
-}
-
-Vec3 pixel(const Image& image, int x, int y) {
-  const float* p = image.texel(Index(y) * Index(image.width) + Index(x));
-  return {p[0], p[1], p[2]};
-}
-
-// The plane with its inner vertices moved about: many triangles of many shapes.
-TriangleMesh shaken_plane(int n) {
-  TriangleMesh mesh = make_plane(n, n);
-  for (Index v = 0; v < mesh.positions.size(); ++v) {
-    Vec3& p = mesh.positions[v];
-    const bool border = p.x() == 0 || p.x() == 1 || p.y() == 0 || p.y() == 1;
-    if (border) continue;
-    p.x() += 0.6 / n * (hash_unit(1, v) - 0.5);
-    p.y() += 0.6 / n * (hash_unit(2, v) - 0.5);
-  }
-  return mesh;
-}
 
 // Two squares facing +z, the red one (material 0) at z = `red`, the other at z = 0.
 TriangleMesh two_squares(double red, bool red_first) {
@@ -98,40 +71,6 @@ TEST_CASE("the nearer face hides the farther one, whatever their order", "[rende
   CHECK((pixel(red_in_front, 16, 16) - pixel(blue_in_front, 16, 16)).norm() > 0.2);
 }
 
-TEST_CASE("every sample of a triangulated square belongs to exactly one face", "[render]") {
-  constexpr int kSize = 120;
-  for (const int n : {1, 7, 20}) {
-    // On a grid of samples, and shaken; seen from the front, from behind and slanted.
-    for (const TriangleMesh& mesh : {make_plane(n, n), shaken_plane(n)}) {
-      for (const double azimuth : {0.0, 180.0, 33.0}) {
-        RenderOptions options = facing(kSize);
-        options.azimuth_degrees = azimuth;
-        const Camera camera(mesh, options);
-        std::vector<int> count(kSize * kSize);
-        for (Index f = 0; f < mesh.faces.size(); ++f) {
-          auto corners = mesh.corners(f);
-          for (Vec3& p : corners) p = camera.project(p);
-          RasterBand band{kSize, 0, kSize, std::vector<Index>(count.size(), kNone),
-                          std::vector<double>(count.size())};
-          draw(make_screen_triangle(corners, 1), f, band);
-          for (std::size_t i = 0; i < count.size(); ++i) count[i] += band.face[i] != kNone;
-        }
-        long inside = 0;
-        bool exactly_once = true;
-        for (int y = 0; y < kSize; ++y) {
-          const auto row = count.begin() + y * kSize;
-          const auto first = std::find_if(row, row + kSize, [](int c) { return c > 0; });
-          auto last = row + kSize;
-          while (last > first && *(last - 1) == 0) --last;
-          for (auto c = first; c < last; ++c, ++inside) exactly_once = exactly_once && *c == 1;
-        }
-        CHECK(exactly_once);
-        CHECK(inside > 3000);
-      }
-    }
-  }
-}
-
 TEST_CASE("a sphere has no holes", "[render]") {
   RenderOptions options = facing(300);
   options.supersampling = 1;
@@ -144,23 +83,6 @@ TEST_CASE("a sphere has no holes", "[render]") {
     }
   }
   CHECK(holes == 0);
-}
-
-TEST_CASE("attributes are interpolated in perspective", "[render]") {
-  const TriangleMesh mesh = make_plane(1, 1, 5, 1);
-  RenderOptions options = facing(4000);
-  options.azimuth_degrees = 70;
-  options.elevation_degrees = 20;
-  const Camera camera(mesh, options);
-  for (Index f = 0; f < 2; ++f) {
-    const auto corners = mesh.corners(f);
-    const ScreenTriangle triangle = make_screen_triangle(
-        {camera.project(corners[0]), camera.project(corners[1]), camera.project(corners[2])}, 1);
-    for (const Vec3& b : {Vec3(0.2, 0.3, 0.5), Vec3(0.7, 0.2, 0.1), Vec3(0.3, 0.3, 0.4)}) {
-      const Vec3 p = camera.project(b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2]);
-      CHECK((triangle.weights(p.x(), p.y()) - b).norm() < 1e-4);
-    }
-  }
 }
 
 TEST_CASE("pictures of every shape hold numbers from 0 to 1, light or not", "[render]") {
@@ -267,25 +189,6 @@ TEST_CASE("faces are drawn with the texture of their own material", "[render]") 
   const Vec3 grey = pixel(render(mesh, colour, facing(32)), 24, 16);
   CHECK(grey[0] == grey[1]);
   CHECK(grey[0] == grey[2]);
-}
-
-TEST_CASE("the camera stands where azimuth, elevation and up say", "[render]") {
-  const TriangleMesh mesh = make_cube();
-  RenderOptions options = facing(100);
-  const auto direction = [&] { return Camera(mesh, options).eye().normalized(); };
-  CHECK((direction() - Vec3(0, 0, 1)).norm() < 1e-12);
-  options.azimuth_degrees = 90;
-  CHECK((direction() - Vec3(1, 0, 0)).norm() < 1e-12);
-  options.elevation_degrees = 90;
-  CHECK((direction() - Vec3(0, 1, 0)).norm() < 1e-12);
-  options.up = Vec3(0, 0, 5);
-  CHECK((direction() - Vec3(0, 0, 1)).norm() < 1e-12);
-  options.elevation_degrees = options.azimuth_degrees = 0;
-  CHECK((direction() - Vec3(0, -1, 0)).norm() < 1e-12);
-  // Up is up in the picture.
-  const Camera camera(mesh, options);
-  CHECK(camera.project(Vec3(0, 0, 1)).y() < camera.project(Vec3(0, 0, -1)).y());
-  CHECK(camera.project(Vec3(1, 0, 0)).x() > camera.project(Vec3(-1, 0, 0)).x());
 }
 
 TEST_CASE("options outside their domain are refused", "[render]") {

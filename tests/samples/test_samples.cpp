@@ -6,6 +6,7 @@
 #include "onmesh/poisson/poisson.h"
 #include "onmesh/procedural/shapes.h"
 #include "onmesh/samples/samples.h"
+#include "support/mesh_parts.h"
 
 using namespace onmesh;
 
@@ -109,16 +110,7 @@ TEST_CASE("samples that share their texels stand for the area of each texel", "[
 
 TEST_CASE("charts that claim the same texel share its area among their own samples", "[samples]") {
   // Two squares of different size in space on the same texels.
-  TriangleMesh mesh = make_plane(1, 1);
-  TriangleMesh other = make_plane(1, 1, 2, 2);
-  const auto positions = static_cast<Index>(mesh.positions.size());
-  const auto uvs = static_cast<Index>(mesh.uvs.size());
-  for (const Vec3& p : other.positions) mesh.positions.emplace_back(p.x() + 3, p.y(), 0);
-  for (const Vec2& uv : other.uvs) mesh.uvs.push_back(uv);
-  for (auto f : other.faces)
-    mesh.faces.push_back({f[0] + positions, f[1] + positions, f[2] + positions});
-  for (auto f : other.face_uvs) mesh.face_uvs.push_back({f[0] + uvs, f[1] + uvs, f[2] + uvs});
-  mesh.face_materials.assign(mesh.faces.size(), kNone);
+  const TriangleMesh mesh = side_by_side(make_plane(1, 1), make_plane(1, 1, 2, 2), {3, 0, 0});
   const TexelMap map = make_texel_map(mesh, 12, 12);
   const NodeSurface surface = refine_to(mesh, 0.5);
   const Samples samples =

@@ -4,6 +4,8 @@ namespace onmesh {
 
 std::filesystem::path source_folder() { return ONMESH_SOURCE_DIR; }
 
+std::filesystem::path build_folder() { return ONMESH_BUILD_DIR; }
+
 std::filesystem::path shared_data() { return source_folder() / "../shared/data"; }
 
 std::filesystem::path program() { return ONMESH_PROGRAM; }

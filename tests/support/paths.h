@@ -8,6 +8,9 @@ namespace onmesh {
 /// The project's root.
 std::filesystem::path source_folder();
 
+/// Where this build was configured.
+std::filesystem::path build_folder();
+
 /// The folder of large meshes beside the project; it may not be there.
 std::filesystem::path shared_data();
 

@@ -5,9 +5,12 @@
 #include <map>
 #include <numeric>
 #include <string>
+#include <utility>
 
+#include "onmesh/base/disjoint_sets.h"
 #include "onmesh/base/error.h"
-#include "onmesh/procedural/texture.h"
+#include "onmesh/base/plane.h"
+#include "onmesh/base/random.h"
 
 namespace onmesh {
 namespace {
@@ -37,27 +40,9 @@ bool between_texels(const Vec2& a, const Vec2& b) {
   return false;
 }
 
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), Index(0));
-  }
-  Index find(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(Index i, Index j) {
-    i = find(i), j = find(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
-
 // Chart number per face after random cuts.
-std::vector<Index> random_charts(const TriangleMesh& mesh, const std::vector<Corners>& corners,
-                                 std::uint64_t seed, Index& charts) {
+NumberedSets random_charts(const TriangleMesh& mesh, const std::vector<Corners>& corners,
+                           std::uint64_t seed) {
   // Faces that meet in an edge with equal UVs at both ends.
   using Edge = std::array<Index, 4>;
   std::map<Edge, std::vector<std::pair<Index, int>>> faces_of_edge;
@@ -69,21 +54,17 @@ std::vector<Index> random_charts(const TriangleMesh& mesh, const std::vector<Cor
       faces_of_edge[{low.first, low.second, high.first, high.second}].emplace_back(face, k);
     }
   }
-  UnionFind groups(mesh.faces.size());
+  DisjointSets groups(mesh.faces.size());
   std::uint64_t number = 0;
   for (const auto& [edge, faces] : faces_of_edge) {
     const auto [face, k] = faces.front();
     const bool may_cut = between_texels(corners[face][k], corners[face][(k + 1) % 3]);
-    if (may_cut && hash_unit(seed, number++) < kCutShare) continue;
+    if (may_cut && random_unit_at(seed, number++) < kCutShare) continue;
     for (const auto& [other, unused] : faces) groups.join(face, other);
   }
-  std::vector<Index> chart(mesh.faces.size(), kNone);
-  charts = 0;
-  for (Index face = 0; face < chart.size(); ++face) {
-    const Index root = groups.find(face);  // the lowest face of the group
-    chart[face] = root == face ? charts++ : chart[root];
-  }
-  return chart;
+  std::vector<Index> roots;
+  for (Index face = 0; face < mesh.faces.size(); ++face) roots.push_back(groups.find(face));
+  return number_sets(std::move(roots));
 }
 
 // A chart's box of texels, how often it is turned clockwise, and where the turned box goes.
@@ -109,8 +90,12 @@ struct Placement {
   }
 };
 
+struct Size {
+  int width, height;
+};
+
 // Shelf packing, highest charts first. Returns the atlas's size.
-std::pair<int, int> pack(std::vector<Placement>& charts) {
+Size pack(std::vector<Placement>& charts) {
   std::vector<Index> order(charts.size());
   std::iota(order.begin(), order.end(), Index(0));
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
@@ -142,22 +127,19 @@ std::pair<int, int> pack(std::vector<Placement>& charts) {
 template <typename Visit>
 void for_centres(const Corners& p, const Visit& visit) {
   const Vec2 low = p[0].cwiseMin(p[1]).cwiseMin(p[2]), high = p[0].cwiseMax(p[1]).cwiseMax(p[2]);
-  const auto side = [](const Vec2& a, const Vec2& b, const Vec2& q) {
-    return (b - a).x() * (q - a).y() - (b - a).y() * (q - a).x();
-  };
   for (int y = int(std::floor(low.y())); y < high.y(); ++y) {
     for (int x = int(std::floor(low.x())); x < high.x(); ++x) {
       const Vec2 q(x + 0.5, y + 0.5);
-      const double a = side(p[0], p[1], q), b = side(p[1], p[2], q), c = side(p[2], p[0], q);
+      const double a = twice_area(p[0], p[1], q), b = twice_area(p[1], p[2], q),
+                   c = twice_area(p[2], p[0], q);
       const double tolerance = 1e-9 * ((high - low).maxCoeff() + 1);
       if (std::min({a, b, c}) >= -tolerance || std::max({a, b, c}) <= tolerance) visit(x, y);
     }
   }
 }
 
-}  // namespace
-
-RecutAtlas recut_atlas(const TriangleMesh& mesh, const Image& image, std::uint64_t seed) {
+// Corners of all faces in pixels; refuses what cannot be cut.
+std::vector<Corners> all_corners(const TriangleMesh& mesh, const Image& image) {
   std::vector<Corners> corners(mesh.faces.size());
   for (Index face = 0; face < mesh.faces.size(); ++face) {
     const std::string name = "recut_atlas: face " + std::to_string(face);
@@ -168,56 +150,69 @@ RecutAtlas recut_atlas(const TriangleMesh& mesh, const Image& image, std::uint64
         throw InputError(name + " reaches beyond [0,1] in UVs");
     }
   }
+  return corners;
+}
 
-  RecutAtlas result;
-  result.mesh = mesh;
-  const std::vector<Index> chart_of = random_charts(mesh, corners, hash(seed, 1), result.charts);
-  if (mesh.faces.empty()) throw InputError("recut_atlas: the mesh has no faces");
-
-  // Boxes in whole texels, turned at random, packed.
-  std::vector<Placement> charts(result.charts);
-  std::vector<std::array<int, 4>> boxes(result.charts, {image.width, image.height, 0, 0});
-  for (Index face = 0; face < mesh.faces.size(); ++face) {
-    auto& [x0, y0, x1, y1] = boxes[chart_of[face]];
+// Boxes in whole texels, turned at random.
+std::vector<Placement> box_charts(const std::vector<Corners>& corners, const NumberedSets& charts,
+                                  const Image& image, std::uint64_t seed) {
+  std::vector<Placement> placements(charts.count);
+  std::vector<std::array<int, 4>> boxes(charts.count, {image.width, image.height, 0, 0});
+  for (Index face = 0; face < corners.size(); ++face) {
+    auto& [x0, y0, x1, y1] = boxes[charts.numbers[face]];
     for (const Vec2& p : corners[face]) {
       x0 = std::min(x0, int(std::floor(p.x()))), y0 = std::min(y0, int(std::floor(p.y())));
       x1 = std::max(x1, int(std::ceil(p.x()))), y1 = std::max(y1, int(std::ceil(p.y())));
     }
   }
-  for (Index i = 0; i < result.charts; ++i) {
+  for (Index i = 0; i < charts.count; ++i) {
     const auto [x0, y0, x1, y1] = boxes[i];
-    charts[i] = {x0, y0, x1 - x0, y1 - y0, int(hash(seed, 2, i) % 4)};
+    placements[i] = {x0, y0, x1 - x0, y1 - y0, int(random_bits_at(seed, 2, i) % 4)};
   }
-  const auto [width, height] = pack(charts);
+  return placements;
+}
+
+}  // namespace
+
+RecutAtlas recut_atlas(const TriangleMesh& mesh, const Image& image, std::uint64_t seed) {
+  const std::vector<Corners> corners = all_corners(mesh, image);
+  if (mesh.faces.empty()) throw InputError("recut_atlas: the mesh has no faces");
+  const NumberedSets charts = random_charts(mesh, corners, random_bits_at(seed, 1));
+  std::vector<Placement> placements = box_charts(corners, charts, image, seed);
+  const Size size = pack(placements);
+  RecutAtlas result;
+  result.mesh = mesh;
+  result.charts = charts.count;
 
   // UVs: one per old UV and chart.
   result.mesh.uvs.clear();
   std::map<std::pair<Index, Index>, Index> new_uv;
   for (Index face = 0; face < mesh.faces.size(); ++face) {
-    for (int k = 0; k < 3; ++k) {
-      const auto [entry, is_new] = new_uv.try_emplace({mesh.face_uvs[face][k], chart_of[face]},
-                                                      Index(result.mesh.uvs.size()));
+    const Index chart = charts.numbers[face];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [entry, is_new] =
+          new_uv.try_emplace({mesh.face_uvs[face][k], chart}, Index(result.mesh.uvs.size()));
       if (is_new) {
-        const Vec2 p = charts[chart_of[face]](corners[face][k]);
-        result.mesh.uvs.emplace_back(p.x() / width, 1 - p.y() / height);
+        const Vec2 p = placements[chart](corners[face][k]);
+        result.mesh.uvs.emplace_back(p.x() / size.width, 1 - p.y() / size.height);
       }
       result.mesh.face_uvs[face][k] = entry->second;
     }
   }
 
   // Values, by texel centres. Whatever no chart holds is noise: reading it must show.
-  result.image = make_image(width, height, image.channels);
+  result.image = make_image(size.width, size.height, image.channels);
   result.image.alpha_channel = image.alpha_channel;
   for (std::size_t i = 0; i < result.image.pixels.size(); ++i) {
-    result.image.pixels[i] = float(hash_unit(seed, 3, i));
+    result.image.pixels[i] = float(random_unit_at(seed, 3, i));
   }
   result.new_texel.assign(std::size_t(image.width) * std::size_t(image.height), kNone);
   for (Index face = 0; face < mesh.faces.size(); ++face) {
-    const Placement& chart = charts[chart_of[face]];
+    const Placement& placement = placements[charts.numbers[face]];
     for_centres(corners[face], [&](int x, int y) {
-      const Vec2 q = chart(Vec2(x + 0.5, y + 0.5));
+      const Vec2 q = placement(Vec2(x + 0.5, y + 0.5));
       const auto from = Index(y) * Index(image.width) + Index(x);
-      const auto to = Index(q.y()) * Index(width) + Index(q.x());
+      const auto to = Index(q.y()) * Index(size.width) + Index(q.x());
       if (result.new_texel[from] != kNone) return;
       result.new_texel[from] = to;
       std::copy_n(image.texel(from), image.channels, result.image.texel(to));

@@ -21,8 +21,9 @@ struct RecutAtlas {
 /// random multiple of 90 degrees and pack all into a new atlas, at least 4 texels apart. Texel
 /// centres land on texel centres, values are copied. Only edges that run along a texel row or
 /// column, between texels, are cut (a cut elsewhere would split texels or count a centre on both
-/// sides). \pre mesh is welded; no texel is claimed by two charts \throw InputError if a face has
-/// no UVs or reaches beyond [0,1]
+/// sides).
+/// \pre mesh is welded; no texel is claimed by two charts
+/// \throw InputError if a face has no UVs or reaches beyond [0,1], or there are no faces
 RecutAtlas recut_atlas(const TriangleMesh& mesh, const Image& image, std::uint64_t seed);
 
 }  // namespace onmesh

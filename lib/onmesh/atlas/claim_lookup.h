@@ -1,4 +1,4 @@
-// Which texels points of the surface hit.
+// Which claimed texel a surface point hits (internal).
 #pragma once
 
 #include <vector>
@@ -8,18 +8,22 @@
 namespace onmesh {
 
 /// Finds the claim of the texel that a surface point hits: one whose square holds the point's UV
-/// and that is claimed by the point's own chart. What lies across a seam does not hit a texel, nor
-/// does another chart that uses the same texel. Where a chart claims a texel several times (it lies
-/// on itself), the first claim stands for all of them: it leads.
+/// and that is claimed by the point's own chart.
+///
+/// What lies across a seam does not hit a texel, nor does another chart that uses the same texel.
+/// Where a chart claims a texel several times (it lies on itself), the first claim stands for all
+/// of them: it leads.
 class ClaimLookup {
  public:
   /// \pre map outlives this
   explicit ClaimLookup(const TexelMap& map);
 
   /// The leading claim hit by a point of the face, kNone if its chart does not claim that texel.
+  /// \pre the face belongs to a chart
   Index find(Index face, const Vec2& uv) const;
   /// The leading claim of the same texel and chart.
   Index leader(Index claim) const { return find(face_of_[claim], map_.claims[claim]); }
+  /// The face that made the claim.
   Index face_of(Index claim) const { return face_of_[claim]; }
 
  private:
@@ -30,13 +34,5 @@ class ClaimLookup {
   std::vector<Index> heads_;    // per texel, its first claim
   std::vector<Index> next_;     // per claim, the next one of the same texel
 };
-
-class DiskSet;
-class ConnectedBall;
-
-/// Add a sample to every texel that the board's samples leave out, as far from them as there is
-/// place in the texel. Its spacing is its distance to the closest sample that it would conflict
-/// with otherwise.
-void hit_all_texels(const TexelMap& map, const ConnectedBall& ball, DiskSet& board);
 
 }  // namespace onmesh

@@ -3,11 +3,15 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "onmesh/base/error.h"
+#include "onmesh/base/parallel.h"
 
 namespace onmesh {
 namespace {
+
+constexpr std::int64_t kStripRows = 256;
 
 class Claimer {
  public:
@@ -15,12 +19,22 @@ class Claimer {
   void claim();
 
  private:
+  /// A texel and the area of a face in it, in texels.
+  struct Part {
+    TexelClaim texel;
+    double area;
+  };
   bool wins(Index face, int on, const Vec2& centre) const;
   template <class Emit>
   void claim_rows(const Strip& strip, Emit&& emit) const;
   std::vector<std::pair<Index, TexelClaim>> claims_of_empty_charts(
       const std::vector<std::size_t>& counts) const;
+  std::vector<Part> parts_of(const std::vector<Index>& faces) const;
   std::optional<std::pair<Index, TexelClaim>> best_texel(const std::vector<Index>& faces) const;
+  std::vector<std::size_t> count_claims() const;
+  void lay_out(const std::vector<std::size_t>& counts);
+  void write_claims(const std::vector<std::size_t>& places);
+  void cover(const TexelClaim& claim);
 
   const Atlas& atlas_;
   const std::vector<Strip>& strips_;
@@ -31,7 +45,8 @@ class Claimer {
 bool Claimer::wins(Index face, int on, const Vec2& centre) const {
   std::vector<std::pair<Index, int>> open{{face, on}};
   for (std::size_t i = 0; i < open.size(); ++i) {
-    const auto [f, edges] = open[i];
+    const Index f = open[i].first;
+    const int edges = open[i].second;
     bool lost = false;
     // A face seen from corner k whose edges at the centre all end in that corner adds nothing new.
     const auto visit = [&](Index g, Index corner) {
@@ -63,9 +78,11 @@ bool Claimer::wins(Index face, int on, const Vec2& centre) const {
 }
 
 /// Call emit(row, first column, one beyond the last) for every run of centres that the face owns.
+/// Columns whose centres are surely inside are found from the edges' lines; only those near an edge
+/// are tested.
 template <class Emit>
 void Claimer::claim_rows(const Strip& strip, Emit&& emit) const {
-  const PixelTriangle t = atlas_.triangle(strip.face);
+  const UvTriangle t = atlas_.triangle(strip.face);
   // Centres further than this from an edge's line are decided by the line alone.
   const double margin = 1000 * atlas_.tolerance;
   for (std::int32_t row = strip.begin; row < strip.end; ++row) {
@@ -110,16 +127,11 @@ void Claimer::claim_rows(const Strip& strip, Emit&& emit) const {
   }
 }
 
-/// The texel that the faces overlap most in all, and the face closest to its centre.
-std::optional<std::pair<Index, TexelClaim>> Claimer::best_texel(
-    const std::vector<Index>& faces) const {
-  struct Part {
-    TexelClaim texel;
-    double area;
-  };
+/// Every texel that the faces meet, once per face, by row and column.
+std::vector<Claimer::Part> Claimer::parts_of(const std::vector<Index>& faces) const {
   std::vector<Part> parts;
   for (const Index f : faces) {
-    const PixelTriangle t = atlas_.triangle(f);
+    const UvTriangle t = atlas_.triangle(f);
     auto rows = t.rows(atlas_.tolerance);
     atlas_.clip(rows, atlas_.map.height);
     for (auto y = rows.first; y < rows.second; ++y) {
@@ -129,13 +141,20 @@ std::optional<std::pair<Index, TexelClaim>> Claimer::best_texel(
         parts.push_back({{std::int32_t(x), std::int32_t(y)}, t.area_in(x, y)});
     }
   }
+  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
+    return a.texel.y != b.texel.y ? a.texel.y < b.texel.y : a.texel.x < b.texel.x;
+  });
+  return parts;
+}
+
+/// The texel that the faces overlap most in all, and the face closest to its centre.
+std::optional<std::pair<Index, TexelClaim>> Claimer::best_texel(
+    const std::vector<Index>& faces) const {
+  const std::vector<Part> parts = parts_of(faces);
   if (parts.empty()) return std::nullopt;
   const auto same = [](const TexelClaim& a, const TexelClaim& b) {
     return a.x == b.x && a.y == b.y;
   };
-  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
-    return a.texel.y != b.texel.y ? a.texel.y < b.texel.y : a.texel.x < b.texel.x;
-  });
   Part best{{}, -1};
   for (std::size_t i = 0; i < parts.size();) {
     Part sum{parts[i].texel, 0};
@@ -155,6 +174,7 @@ std::optional<std::pair<Index, TexelClaim>> Claimer::best_texel(
   return std::make_pair(closest, best.texel);
 }
 
+/// One claim for every chart that has no centre, counts being the claims per face.
 std::vector<std::pair<Index, TexelClaim>> Claimer::claims_of_empty_charts(
     const std::vector<std::size_t>& counts) const {
   std::vector<bool> has_claims(atlas_.map.charts, false);
@@ -179,45 +199,58 @@ std::vector<std::pair<Index, TexelClaim>> Claimer::claims_of_empty_charts(
   return result;
 }
 
+/// Give every chart its claims: count them per strip, lay the faces out one after the other, then
+/// write. Claims are found twice rather than kept in between.
 void Claimer::claim() {
-  const std::size_t faces = atlas_.mesh.faces.size();
-  std::vector<std::size_t> offsets(strips_.size() + 1, 0);
+  std::vector<std::size_t> places = count_claims();  // per strip
+  std::vector<std::size_t> counts(atlas_.mesh.faces.size(), 0);
+  for (std::size_t i = 0; i < strips_.size(); ++i) counts[strips_[i].face] += places[i];
+  const auto extra = claims_of_empty_charts(counts);
+  for (const auto& e : extra) ++counts[e.first];
+  lay_out(counts);
+  // A face with an extra claim has no other, so strips begin where their face's earlier ones end.
+  Index face = kNone;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    if (strips_[i].face != face) at = atlas_.map.face_offsets[face = strips_[i].face];
+    at += std::exchange(places[i], at);
+  }
+  write_claims(places);
+  for (const auto& [f, texel] : extra) {
+    atlas_.map.claims[atlas_.map.face_offsets[f]] = texel;
+    cover(texel);
+  }
+}
+
+std::vector<std::size_t> Claimer::count_claims() const {
+  std::vector<std::size_t> counts(strips_.size(), 0);
   parallel_over(strips_.size(), [&](std::size_t i) {
     std::size_t count = 0;
     claim_rows(strips_[i], [&](std::int32_t, std::int32_t begin, std::int32_t end) {
       count += std::size_t(end - begin);
     });
-    offsets[i + 1] = count;
+    counts[i] = count;
   });
-  std::vector<std::size_t> counts(faces, 0);
-  for (std::size_t i = 0; i < strips_.size(); ++i) counts[strips_[i].face] += offsets[i + 1];
-  const auto extra = claims_of_empty_charts(counts);
-  for (const auto& e : extra) ++counts[e.first];
+  return counts;
+}
 
-  atlas_.map.face_offsets.assign(faces + 1, 0);
+/// Make room for so many claims per face.
+void Claimer::lay_out(const std::vector<std::size_t>& counts) {
+  atlas_.map.face_offsets.assign(counts.size() + 1, 0);
   std::size_t total = 0;
-  for (std::size_t f = 0; f < faces; ++f) {
+  for (std::size_t f = 0; f < counts.size(); ++f) {
     total += counts[f];
     if (double(total) > kMostClaims)
       throw InputError("the UVs repeat the texture too often: more than 2^31 texels are covered");
     atlas_.map.face_offsets[f + 1] = Index(total);
   }
   atlas_.map.claims.resize(total);
-  // A face with an extra claim has no other, so strips begin where their face's earlier ones end.
-  Index face = kNone;
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < strips_.size(); ++i) {
-    if (strips_[i].face != face) at = atlas_.map.face_offsets[face = strips_[i].face];
-    const std::size_t count = offsets[i + 1];
-    offsets[i] = at;
-    at += count;
-  }
-  const auto cover = [&](const TexelClaim& claim) {
-    std::atomic_ref<Coverage>(atlas_.map.coverage[atlas_.map.texel(claim)])
-        .store(Coverage::covered, std::memory_order_relaxed);
-  };
+}
+
+/// \param places per strip, of its first claim
+void Claimer::write_claims(const std::vector<std::size_t>& places) {
   parallel_over(strips_.size(), [&](std::size_t i) {
-    TexelClaim* out = atlas_.map.claims.data() + offsets[i];
+    TexelClaim* out = atlas_.map.claims.data() + places[i];
     claim_rows(strips_[i], [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
       for (std::int32_t x = begin; x < end; ++x) {
         *out = {x, row};
@@ -225,13 +258,27 @@ void Claimer::claim() {
       }
     });
   });
-  for (const auto& [f, texel] : extra) {
-    atlas_.map.claims[atlas_.map.face_offsets[f]] = texel;
-    cover(texel);
-  }
+}
+
+void Claimer::cover(const TexelClaim& claim) {
+  std::atomic_ref<Coverage>(atlas_.map.coverage[atlas_.map.texel(claim)])
+      .store(Coverage::covered, std::memory_order_relaxed);
 }
 
 }  // namespace
+
+std::vector<Strip> make_strips(const Atlas& atlas) {
+  std::vector<Strip> strips;
+  for (Index f = 0; f < atlas.mesh.faces.size(); ++f) {
+    if (!atlas.rasterised(f)) continue;
+    auto rows = atlas.triangle(f).rows(atlas.tolerance);
+    atlas.clip(rows, atlas.map.height);
+    for (auto row = rows.first; row < rows.second; row += kStripRows)
+      strips.push_back(
+          {f, std::int32_t(row), std::int32_t(std::min(row + kStripRows, rows.second))});
+  }
+  return strips;
+}
 
 void claim_texels(const Atlas& atlas, const std::vector<Strip>& strips) {
   Claimer(atlas, strips).claim();

@@ -1,13 +1,13 @@
-// The pieces that make_texel_map is put together from (internal).
+// Which face claims which texel (internal: a step of make_texel_map()).
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "onmesh/atlas/texel_map.h"
+#include "onmesh/atlas/uv_neighbours.h"
 #include "onmesh/atlas/uv_triangle.h"
 
 namespace onmesh {
@@ -23,9 +23,7 @@ struct Atlas {
   const UvNeighbours& neighbours;
   double tolerance;  ///< pixels
 
-  PixelTriangle triangle(Index face) const {
-    return {mesh, face, map.width, map.height, tolerance};
-  }
+  UvTriangle triangle(Index face) const { return {mesh, face, map.width, map.height, tolerance}; }
   bool rasterised(Index face) const { return map.texel_area[face] > 0; }
   /// Limit rows or columns to those that are rasterised: with Wrap::clamp the image's.
   void clip(std::pair<std::int64_t, std::int64_t>& range, int size) const {

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <span>
 
+#include "onmesh/atlas/uv_neighbours.h"
 #include "onmesh/atlas/uv_triangle.h"
+#include "onmesh/base/parallel.h"
+#include "onmesh/base/triangle.h"
 
 namespace onmesh {
 namespace {
@@ -31,7 +34,7 @@ std::vector<BoundaryEdge> boundary_edges(const TriangleMesh& mesh, const TexelMa
       bool inner = false;
       neighbours.across_edge(f, k, [&](Index) { inner = true; });
       if (inner) continue;
-      const PixelTriangle t(mesh, f, map.width, map.height, tolerance);
+      const UvTriangle t(mesh, f, map.width, map.height, tolerance);
       const auto& e = t.edges[std::size_t(k)];
       edges.push_back({f, map.chart_of_face[f], k, t.corners[std::size_t(k)],
                        t.corners[std::size_t((k + 1) % 3)],
@@ -55,51 +58,169 @@ std::pair<double, double> columns_near(const BoundaryEdge& e, double row_centre,
   return {std::ceil(std::min(x0, x1) - reach - 0.5), std::floor(std::max(x0, x1) + reach - 0.5)};
 }
 
+/// An edge, and a row (before wrapping) where centres may be near it.
+struct EdgeInRow {
+  Index edge;
+  std::int32_t row;
+};
+
+/// Boundary edges by the rows of the image in which centres may be within reach of them.
+class EdgeRows {
+ public:
+  EdgeRows(const std::vector<BoundaryEdge>& edges, const TexelMap& map, double reach)
+      : offsets_(std::size_t(map.height) + 1, 0) {
+    // Counted first, then filled in.
+    visit(edges, map, reach, [&](std::size_t row, const EdgeInRow&) { ++offsets_[row + 1]; });
+    for (std::size_t r = 1; r < offsets_.size(); ++r) offsets_[r] += offsets_[r - 1];
+    entries_.resize(offsets_.back());
+    std::vector<std::size_t> next(offsets_.begin(), offsets_.end() - 1);
+    visit(edges, map, reach,
+          [&](std::size_t row, const EdgeInRow& entry) { entries_[next[row]++] = entry; });
+  }
+
+  /// \param row of the image
+  std::span<const EdgeInRow> at(std::size_t row) const {
+    return std::span(entries_).subspan(offsets_[row], offsets_[row + 1] - offsets_[row]);
+  }
+
+ private:
+  template <class Visit>
+  static void visit(const std::vector<BoundaryEdge>& edges, const TexelMap& map, double reach,
+                    const Visit& visit) {
+    const int height = map.height;
+    for (Index e = 0; e < edges.size(); ++e) {
+      auto first =
+          std::int64_t(std::ceil(std::min(edges[e].from.y(), edges[e].to.y()) - reach - 0.5));
+      auto last =
+          std::int64_t(std::floor(std::max(edges[e].from.y(), edges[e].to.y()) + reach - 0.5));
+      if (map.wrap == Wrap::clamp) {
+        first = std::max<std::int64_t>(first, 0);
+        last = std::min<std::int64_t>(last, height - 1);
+      }
+      for (auto row = first; row <= last; ++row)
+        visit(std::size_t(((row % height) + height) % height), EdgeInRow{e, std::int32_t(row)});
+    }
+  }
+
+  std::vector<std::size_t> offsets_;  // per row, into entries_
+  std::vector<EdgeInRow> entries_;
+};
+
+/// Keeps the nearest of the edges offered to the gutter texels of one row.
+class RowSearch {
+ public:
+  /// \param base index of the row's first texel
+  /// \param gutter texels of the row, ascending
+  /// \param nearest one per gutter texel
+  RowSearch(const TexelMap& map, Index base, std::span<const Index> gutter, NearestEdge* nearest)
+      : map_(map),
+        base_(base),
+        gutter_(gutter),
+        nearest_(nearest),
+        outwardness_(gutter.size(), 0) {}
+
+  /// Compare the edge with all texels that it may be within reach of, one run of columns per tile.
+  /// \param row before wrapping
+  void offer(const BoundaryEdge& e, std::int32_t row, double reach) {
+    const std::int64_t width = map_.width;
+    auto [low, high] = columns_near(e, row + 0.5, reach);
+    if (map_.wrap == Wrap::clamp) {
+      low = std::max(low, 0.0);
+      high = std::min(high, double(width) - 1.0);
+    }
+    for (auto x = std::int64_t(low); x <= std::int64_t(high);) {
+      const std::int64_t tile = x >= 0 ? x / width : -((width - 1 - x) / width);
+      const std::int64_t stop = std::min(std::int64_t(high), (tile + 1) * width - 1);
+      const Index last = base_ + Index(stop - tile * width);
+      auto texel =
+          std::lower_bound(gutter_.begin(), gutter_.end(), base_ + Index(x - tile * width));
+      for (; texel != gutter_.end() && *texel <= last; ++texel)
+        consider(std::size_t(texel - gutter_.begin()), e,
+                 {std::int32_t(std::int64_t(*texel - base_) + tile * width), row});
+      x = stop + 1;
+    }
+  }
+
+ private:
+  /// \param i of the row's gutter texels, seen at `at`
+  void consider(std::size_t i, const BoundaryEdge& e, const TexelClaim& at) {
+    NearestEdge& best = nearest_[i];
+    const Vec2 centre{at.x + 0.5, at.y + 0.5};
+    double position = 0;
+    const double d2 = squared_distance_to_segment(centre, e.from, e.to, &position);
+    const double out = e.outward.dot(centre - e.from);
+    if (best.face != kNone) {
+      if (d2 > best.squared_distance + kTie) return;
+      const Index chart = map_.chart_of_face[best.face];
+      const bool tie = d2 > best.squared_distance - kTie;
+      // At a corner of a chart take the edge that the texel lies further beyond.
+      if (tie && (e.chart > chart || (e.chart == chart && out <= outwardness_[i] + kTie))) return;
+    }
+    best = {e.face, e.edge, at, position, d2};
+    outwardness_[i] = out;
+  }
+
+  const TexelMap& map_;
+  const Index base_;
+  const std::span<const Index> gutter_;
+  NearestEdge* const nearest_;
+  std::vector<double> outwardness_;  // how far each texel lies beyond the line of its nearest edge
+};
+
+/// Call visit(i) for the 8-neighbours of a texel that are in the image or, repeated, around it.
+template <class Visit>
+void visit_neighbours(const TexelMap& map, Index texel, const Visit& visit) {
+  const int width = map.width, height = map.height;
+  const int x = int(texel % Index(width)), y = int(texel / Index(width));
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
+      int u = x + dx, v = y + dy;
+      if (map.wrap == Wrap::repeat) {
+        u = (u + width) % width;
+        v = (v + height) % height;
+      } else if (u < 0 || v < 0 || u >= width || v >= height) {
+        continue;
+      }
+      visit(Index(v) * Index(width) + Index(u));
+    }
+}
+
+/// Every texel of a chart that may have a neighbour without one.
+std::vector<Index> border_texels(const std::vector<Coverage>& mask, Index width) {
+  std::vector<Index> border;
+  for (Index i = 0; i < mask.size(); ++i) {
+    if (mask[i] == Coverage::none) continue;
+    const Index x = i % width;
+    const bool inside = x > 0 && x + 1 < width && i > width &&
+                        std::size_t(i) + std::size_t(width) + 1 < mask.size();
+    if (inside) {  // most texels: look at the three rows without any wrapping
+      const Coverage* c = &mask[i];
+      const auto free = [&](const Coverage* r) {
+        return r[-1] == Coverage::none || r[0] == Coverage::none || r[1] == Coverage::none;
+      };
+      if (!free(c - width) && !free(c) && !free(c + width)) continue;
+    }
+    border.push_back(i);
+  }
+  return border;
+}
+
 }  // namespace
 
 std::vector<Index> gutter_texels(const TexelMap& map, int rings) {
-  const int width = map.width, height = map.height;
   std::vector<Coverage> mask = map.coverage;  // grows by a ring at a time
   std::vector<Index> gutter;
   for (Index i = 0; i < mask.size(); ++i)
     if (mask[i] == Coverage::touched) gutter.push_back(i);
 
-  const auto visit_neighbours = [&](Index texel, auto&& visit) {
-    const int x = int(texel % Index(width)), y = int(texel / Index(width));
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) {
-        int u = x + dx, v = y + dy;
-        if (map.wrap == Wrap::repeat) {
-          u = (u + width) % width;
-          v = (v + height) % height;
-        } else if (u < 0 || v < 0 || u >= width || v >= height) {
-          continue;
-        }
-        const Index other = Index(v) * Index(width) + Index(u);
-        if (mask[other] == Coverage::none) visit(other);
-      }
-  };
-  // The first ring starts from every texel of a chart that has a free neighbour.
   std::vector<Index> front;
-  if (rings > 0) {
-    for (Index i = 0; i < mask.size(); ++i) {
-      if (mask[i] == Coverage::none) continue;
-      const Index x = i % Index(width);
-      const bool inside = x > 0 && x + 1 < Index(width) && i > Index(width) &&
-                          std::size_t(i) + std::size_t(width) + 1 < mask.size();
-      if (inside) {  // most texels: look at the three rows without any wrapping
-        const Coverage* c = &mask[i];
-        const auto free = [&](const Coverage* r) {
-          return r[-1] == Coverage::none || r[0] == Coverage::none || r[1] == Coverage::none;
-        };
-        if (!free(c - width) && !free(c) && !free(c + width)) continue;
-      }
-      front.push_back(i);
-    }
-  }
+  if (rings > 0) front = border_texels(mask, Index(map.width));
   for (int ring = 0; ring < rings && !front.empty(); ++ring) {
     std::vector<Index> found;
-    for (const Index texel : front) visit_neighbours(texel, [&](Index n) { found.push_back(n); });
+    for (const Index texel : front)
+      visit_neighbours(map, texel, [&](Index n) {
+        if (mask[n] == Coverage::none) found.push_back(n);
+      });
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
     for (const Index n : found) mask[n] = Coverage::touched;
@@ -114,81 +235,17 @@ std::vector<NearestEdge> nearest_edges(const TriangleMesh& mesh, const TexelMap&
                                        const std::vector<Index>& gutter) {
   // A touched texel's centre lies within half a diagonal of its chart, every ring adds a diagonal.
   const double reach = std::sqrt(0.5) * (1 + 2 * rings) + 1e-6;
-  const auto edges = boundary_edges(mesh, map);
-  const int width = map.width, height = map.height;
-
-  // Edges by the row of the image that they may be nearest in; each with its row before wrapping.
-  struct Entry {
-    Index edge;
-    std::int32_t row;
-  };
-  std::vector<std::size_t> offsets(std::size_t(height) + 1, 0);
-  const auto for_each_entry = [&](auto&& visit) {
-    for (Index e = 0; e < edges.size(); ++e) {
-      auto first =
-          std::int64_t(std::ceil(std::min(edges[e].from.y(), edges[e].to.y()) - reach - 0.5));
-      auto last =
-          std::int64_t(std::floor(std::max(edges[e].from.y(), edges[e].to.y()) + reach - 0.5));
-      if (map.wrap == Wrap::clamp) {
-        first = std::max<std::int64_t>(first, 0);
-        last = std::min<std::int64_t>(last, height - 1);
-      }
-      for (auto row = first; row <= last; ++row)
-        visit(std::size_t(((row % height) + height) % height), Entry{e, std::int32_t(row)});
-    }
-  };
-  for_each_entry([&](std::size_t row, const Entry&) { ++offsets[row + 1]; });
-  for (std::size_t r = 1; r < offsets.size(); ++r) offsets[r] += offsets[r - 1];
-  std::vector<Entry> entries(offsets.back());
-  {
-    std::vector<std::size_t> next(offsets.begin(), offsets.end() - 1);
-    for_each_entry([&](std::size_t row, const Entry& entry) { entries[next[row]++] = entry; });
-  }
-
+  const std::vector<BoundaryEdge> edges = boundary_edges(mesh, map);
+  const EdgeRows rows(edges, map, reach);
   std::vector<NearestEdge> nearest(gutter.size());
-  parallel_over(std::size_t(height), [&](std::size_t row) {
-    const auto begin = std::lower_bound(gutter.begin(), gutter.end(), Index(row) * Index(width));
-    const auto end = std::lower_bound(begin, gutter.end(), Index(row + 1) * Index(width));
+  parallel_over(std::size_t(map.height), [&](std::size_t row) {
+    const Index base = Index(row) * Index(map.width);
+    const auto begin = std::lower_bound(gutter.begin(), gutter.end(), base);
+    const auto end = std::lower_bound(begin, gutter.end(), base + Index(map.width));
     if (begin == end) return;
-    std::vector<double> outwardness(std::size_t(end - begin), 0);
-    const auto consider = [&](std::vector<Index>::const_iterator texel, const BoundaryEdge& e,
-                              const TexelClaim& at) {
-      const auto slot = std::size_t(texel - gutter.begin());
-      NearestEdge& best = nearest[slot];
-      const Vec2 centre{at.x + 0.5, at.y + 0.5};
-      double position = 0;
-      const double d2 = squared_distance_to_segment(centre, e.from, e.to, &position);
-      const double out = e.outward.dot(centre - e.from);
-      double& best_out = outwardness[std::size_t(texel - begin)];
-      if (best.face != kNone) {
-        if (d2 > best.squared_distance + kTie) return;
-        const Index chart = map.chart_of_face[best.face];
-        const bool tie = d2 > best.squared_distance - kTie;
-        // At a corner of a chart take the edge that the texel lies further beyond.
-        if (tie && (e.chart > chart || (e.chart == chart && out <= best_out + kTie))) return;
-      }
-      best = {e.face, e.edge, at, position, d2};
-      best_out = out;
-    };
-    for (std::size_t i = offsets[row]; i < offsets[row + 1]; ++i) {
-      const Entry& entry = entries[i];
-      const BoundaryEdge& e = edges[entry.edge];
-      auto [low, high] = columns_near(e, entry.row + 0.5, reach);
-      if (map.wrap == Wrap::clamp) {
-        low = std::max(low, 0.0);
-        high = std::min(high, width - 1.0);
-      }
-      // One run of columns per tile that the range meets.
-      for (auto x = std::int64_t(low); x <= std::int64_t(high);) {
-        const std::int64_t tile = x >= 0 ? x / width : -((width - 1 - x) / width);
-        const std::int64_t stop = std::min(std::int64_t(high), (tile + 1) * width - 1);
-        const Index base = Index(row) * Index(width);
-        auto texel = std::lower_bound(begin, end, base + Index(x - tile * width));
-        for (; texel != end && *texel <= base + Index(stop - tile * width); ++texel)
-          consider(texel, e, {std::int32_t(std::int64_t(*texel - base) + tile * width), entry.row});
-        x = stop + 1;
-      }
-    }
+    RowSearch search(map, base, std::span(begin, end),
+                     &nearest[std::size_t(begin - gutter.begin())]);
+    for (const EdgeInRow& entry : rows.at(row)) search.offer(edges[entry.edge], entry.row, reach);
   });
   return nearest;
 }

@@ -10,16 +10,18 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
 
+#include "onmesh/atlas/charts.h"
 #include "onmesh/atlas/claim_texels.h"
 #include "onmesh/atlas/uv_triangle.h"
-#include "onmesh/base/error.h"
+#include "onmesh/base/face_error.h"
+#include "onmesh/base/parallel.h"
+#include "onmesh/base/triangle.h"
+#include "onmesh/mesh/edge_table.h"
 
 namespace onmesh {
 namespace {
 
-constexpr std::int64_t kStripRows = 256;
 constexpr double kMostTiles = 1 << 14;
 constexpr double kFurthestTexel = 1 << 30;
 
@@ -31,15 +33,14 @@ void check(const TriangleMesh& mesh, const std::vector<bool>& used, const TexelM
     const auto uv = mesh.corner_uvs(f);
     const Vec2 low = uv[0].cwiseMin(uv[1]).cwiseMin(uv[2]);
     const Vec2 high = uv[0].cwiseMax(uv[1]).cwiseMax(uv[2]);
-    const std::string name = "face " + std::to_string(f);
     if (!(uv[0].allFinite() && uv[1].allFinite() && uv[2].allFinite()))
-      throw InputError(name + ": its UVs are not finite");
+      throw FaceError<InputError>(f, "its UVs are not finite");
     if ((high - low).maxCoeff() > kMostTiles)
-      throw InputError(name + ": its UVs span more than 16384 tiles");
+      throw FaceError<InputError>(f, "its UVs span more than 16384 tiles");
     if (std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()) *
             std::max(map.width, map.height) >
         kFurthestTexel)
-      throw InputError(name + ": its UVs lie too far from [0,1]");
+      throw FaceError<InputError>(f, "its UVs lie too far from [0,1]");
     const Vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
     total += std::abs(a.x() * b.y() - a.y() * b.x()) / 2 * map.width * map.height;
   }
@@ -55,12 +56,9 @@ void make_transforms(const Atlas& atlas) {
   parallel_over(faces, [&](std::size_t i) {
     const Index f = Index(i);
     if (!atlas.used[f]) return;
-    const PixelTriangle t = atlas.triangle(f);
-    const auto p = atlas.mesh.corners(f);
-    const double surface = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
-    const double texel = surface / std::abs(t.area);
-    if (t.flat || !(texel > 0) || !std::isfinite(texel)) return;
-    atlas.map.texel_area[f] = texel;
+    const UvTriangle t = atlas.triangle(f);
+    atlas.map.texel_area[f] = texel_area(atlas.mesh, f, t);
+    if (!(atlas.map.texel_area[f] > 0)) return;
     auto& m = atlas.map.to_barycentric_[f];
     for (int k = 0; k < 3; ++k) {
       const Vec2 &a = t.corners[std::size_t((k + 1) % 3)], &b = t.corners[std::size_t((k + 2) % 3)];
@@ -73,32 +71,13 @@ void make_transforms(const Atlas& atlas) {
   });
 }
 
-/// Number the charts in the order of their first faces.
+/// Number the charts of the rasterised faces.
 void make_charts(const Atlas& atlas) {
-  const std::size_t faces = atlas.mesh.faces.size();
-  std::vector<Index> parent(faces);
-  std::iota(parent.begin(), parent.end(), Index(0));
-  const auto root = [&](Index f) {
-    while (parent[f] != f) f = parent[f] = parent[parent[f]];
-    return f;
-  };
-  for (Index f = 0; f < faces; ++f) {
-    if (!atlas.used[f]) continue;
-    for (int k = 0; k < 3; ++k)
-      atlas.neighbours.across_edge(f, k, [&](Index g) {
-        const Index a = root(f), b = root(g);
-        parent[std::max(a, b)] = std::min(a, b);
-      });
-  }
-  // Faces that are not rasterised hold a chart together but have no number.
-  atlas.map.chart_of_face.assign(faces, kNone);
-  std::vector<Index> number(faces, kNone);
-  for (Index f = 0; f < faces; ++f) {
-    if (!atlas.rasterised(f)) continue;
-    Index& n = number[root(f)];
-    if (n == kNone) n = atlas.map.charts++;
-    atlas.map.chart_of_face[f] = n;
-  }
+  std::vector<bool> rasterised(atlas.mesh.faces.size());
+  for (Index f = 0; f < rasterised.size(); ++f) rasterised[f] = atlas.rasterised(f);
+  Charts charts = find_charts(atlas.neighbours, atlas.used, rasterised);
+  atlas.map.chart_of_face = std::move(charts.chart_of_face);
+  atlas.map.charts = charts.count;
 }
 
 /// Mark every texel whose square a chart meets.
@@ -107,7 +86,7 @@ void mark_touched(const Atlas& atlas, const std::vector<Strip>& strips) {
   atlas.map.coverage.assign(width * std::size_t(atlas.map.height), Coverage::none);
   parallel_over(strips.size(), [&](std::size_t i) {
     const Strip& strip = strips[i];
-    const PixelTriangle t = atlas.triangle(strip.face);
+    const UvTriangle t = atlas.triangle(strip.face);
     for (std::int32_t row = strip.begin; row < strip.end; ++row) {
       auto columns = t.columns(row, atlas.tolerance);
       atlas.clip(columns, atlas.map.width);
@@ -126,22 +105,13 @@ void mark_touched(const Atlas& atlas, const std::vector<Strip>& strips) {
 
 }  // namespace
 
-std::vector<Strip> make_strips(const Atlas& atlas) {
-  std::vector<Strip> strips;
-  for (Index f = 0; f < atlas.mesh.faces.size(); ++f) {
-    if (!atlas.rasterised(f)) continue;
-    auto rows = atlas.triangle(f).rows(atlas.tolerance);
-    atlas.clip(rows, atlas.map.height);
-    for (auto row = rows.first; row < rows.second; row += kStripRows)
-      strips.push_back(
-          {f, std::int32_t(row), std::int32_t(std::min(row + kStripRows, rows.second))});
-  }
-  return strips;
+TexelClaim TexelMap::square_at(const Vec2& uv) const {
+  const Vec2 pixel = to_pixels(uv, width, height);
+  return {std::int32_t(std::floor(pixel.x())), std::int32_t(std::floor(pixel.y()))};
 }
 
 Index TexelMap::texel_at(const Vec2& uv) const {
-  TexelClaim square{static_cast<std::int32_t>(std::floor(uv.x() * width)),
-                    static_cast<std::int32_t>(std::floor((1 - uv.y()) * height))};
+  TexelClaim square = square_at(uv);
   if (wrap == Wrap::clamp) {
     square.x = std::clamp(square.x, 0, width - 1);
     square.y = std::clamp(square.y, 0, height - 1);
@@ -161,8 +131,8 @@ Vec3 TexelMap::barycentric(Index face, const TexelClaim& claim) const {
   for (int k = 0; k < 3; ++k) {
     const int l = (k + 1) % 3;
     double t = 0;
-    const double d = squared_distance_to_segment(centre.head<2>(), corners.col(k).head<2>(),
-                                                 corners.col(l).head<2>(), &t);
+    const double d = squared_distance_to_segment<2>(centre.head<2>(), corners.col(k).head<2>(),
+                                                    corners.col(l).head<2>(), &t);
     if (d >= least) continue;
     least = d;
     best = Vec3::Zero();
@@ -242,7 +212,8 @@ TexelMap make_texel_map(const TriangleMesh& mesh, int width, int height,
   map.wrap = options.wrap;
   std::vector<bool> used(mesh.faces.size());
   for (Index f = 0; f < used.size(); ++f)
-    used[f] = mesh.has_uvs(f) && (options.faces.empty() || options.faces[f]);
+    used[f] = mesh.has_uvs(f) && !has_repeated_vertex(mesh.faces[f]) &&
+              (options.faces.empty() || options.faces[f]);
   check(mesh, used, map);
   const UvNeighbours neighbours(mesh, used);
   const Atlas atlas{mesh, map, used, neighbours, pixel_tolerance(mesh, used, width, height)};

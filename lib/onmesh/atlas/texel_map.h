@@ -2,17 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "onmesh/base/large_array.h"
+#include "onmesh/image/lookup.h"
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {
 
-/// How UVs outside [0,1] are read.
-enum class Wrap { repeat, clamp };
-
+/// What charts have of a texel.
 enum class Coverage : std::uint8_t {
   none,     ///< no chart meets the texel's square
   touched,  ///< a chart meets the square but not the centre: padding colour, filled as gutter
@@ -22,25 +20,29 @@ enum class Coverage : std::uint8_t {
 /// A texel claimed by a face: unwrapped column and row (row 0 on top, may be negative or beyond the
 /// image where UVs leave [0,1]).
 struct TexelClaim {
-  std::int32_t x = 0, y = 0;
+  std::int32_t x = 0;  ///< column
+  std::int32_t y = 0;  ///< row
 };
 
 /// Per input face, the texels whose centre lies inside or on its UV triangle (within 1e-9 texel),
-/// ordered by row, then column. A centre on an edge or vertex shared by several faces of one chart
-/// belongs to the lowest face index; a chart without any centre claims the one texel it overlaps
-/// most, through the face closest to that texel's centre. A chart is a set of faces connected over
-/// edges whose UV indices agree on both sides; faces without UV or surface area are not rasterised.
+/// ordered by row, then column.
+///
+/// A centre on an edge or vertex shared by several faces of one chart belongs to the lowest face
+/// index; a chart without any centre claims the one texel it overlaps most, through the face
+/// closest to that texel's centre. A chart is a set of faces connected over edges whose UV indices
+/// agree on all sides (find_charts()). Faces without UV or surface area are not rasterised.
 class TexelMap {
  public:
-  int width = 0, height = 0;
-  Wrap wrap = Wrap::repeat;
+  int width = 0;                    ///< texels
+  int height = 0;                   ///< texels
+  Wrap wrap = Wrap::repeat;         ///< how UVs outside [0,1] are read
   std::vector<Index> face_offsets;  ///< faces + 1, into claims
-  LargeArray<TexelClaim> claims;
-  std::vector<double>
-      texel_area;  ///< per face: surface area of one whole texel; 0 = not rasterised
+  LargeArray<TexelClaim> claims;    ///< those of face f are [face_offsets[f], face_offsets[f + 1])
+  /// Per face the surface area of one whole texel, mesh units squared; 0 = not rasterised.
+  std::vector<double> texel_area;
   std::vector<Coverage> coverage;    ///< width * height
   std::vector<Index> chart_of_face;  ///< chart number, kNone = not rasterised
-  Index charts = 0;
+  Index charts = 0;                  ///< number of charts
 
   /// Texel index (row * width + column) of a claim, wrapped into the image.
   Index texel(const TexelClaim& claim) const {
@@ -51,6 +53,8 @@ class TexelMap {
     };
     return Index(wrapped(claim.y, height)) * Index(width) + Index(wrapped(claim.x, width));
   }
+  /// The texel whose square holds the UV, not wrapped.
+  TexelClaim square_at(const Vec2& uv) const;
   /// Index of the texel whose square holds the UV, wherever it lies: wrapped, or clamped to the
   /// image.
   Index texel_at(const Vec2& uv) const;
@@ -65,24 +69,27 @@ class TexelMap {
   /// Covered texels that are 8-neighbours of another chart's, ascending: bilinear look-ups between
   /// the two mix both charts, and no gutter fits in.
   std::vector<Index> crowded() const;
-  /// Median over claims of the square root of the texel's surface area: the unit "tx".
+  /// Median over claims of the square root of the texel's surface area, mesh units: the unit "tx".
   double median_texel_size() const;
 
-  std::vector<Eigen::Matrix3d> to_barycentric_;
+  std::vector<Eigen::Matrix3d> to_barycentric_;  ///< per face; zero where it is not rasterised
 };
 
+/// What make_texel_map() takes for the atlas.
 struct TexelMapOptions {
-  Wrap wrap = Wrap::repeat;
-  std::vector<bool> faces;  ///< faces that carry the texture; empty = all with UVs
+  Wrap wrap = Wrap::repeat;  ///< how UVs outside [0,1] are read
+  std::vector<bool> faces;   ///< faces that carry the texture; empty = all with UVs
 };
 
-/// Texel (i, j) of a W x H image has its centre at u = (i + .5) / W, v = 1 - (j + .5) / H.
-/// Faces without UVs, with a zero-area UV triangle or without surface area claim nothing.
-/// \pre mesh is welded; width, height > 0
+/// Find out which texels of a width x height image lie on which face.
+///
+/// Texel (i, j) has its centre at u = (i + .5) / width, v = 1 - (j + .5) / height. Faces without
+/// UVs, with a vertex twice, with a zero-area UV triangle or without surface area claim nothing.
 /// With Wrap::clamp, texels outside the image are not claimed. The result does not depend on the
 /// number of threads.
-/// \throw InputError if a face's UVs are not finite, span more than 2^14 tiles or lie further than
-///   2^30 texels away, or if more than 2^31 texels are claimed
+/// \throw FaceError<InputError> if a face's UVs are not finite, span more than 2^14 tiles or lie
+///   further than 2^30 texels away
+/// \throw InputError if more than 2^31 texels are claimed
 TexelMap make_texel_map(const TriangleMesh& mesh, int width, int height,
                         const TexelMapOptions& options = {});
 

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "onmesh/atlas/uv_triangle.h"
+#include "onmesh/base/parallel.h"
+#include "onmesh/base/plane.h"
 
 namespace onmesh {
 namespace {
@@ -12,20 +14,9 @@ namespace {
 constexpr int kMostSteps = 1024;
 constexpr double kInside = -1e-9;  // barycentric
 
-/// Twice the area of (a, b, c), positive if anticlockwise.
-double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
-  const Vec2 d = b - a, e = c - a;
-  return d.x() * e.y() - d.y() * e.x();
-}
-
 std::size_t next(std::size_t k) { return (k + 1) % 3; }
 
 }  // namespace
-
-Vec3 barycentric_in(const std::array<Vec2, 3>& t, const Vec2& p) {
-  return Vec3(turn(p, t[1], t[2]), turn(p, t[2], t[0]), turn(p, t[0], t[1])) /
-         turn(t[0], t[1], t[2]);
-}
 
 UnfoldedWalk::UnfoldedWalk(const TriangleMesh& mesh, const TexelMap& map)
     : mesh_(mesh), map_(map), across_(3 * mesh.faces.size(), kNone) {
@@ -171,14 +162,15 @@ WalkEnd UnfoldedWalk::walk_out(const LaidFace& start, int edge, const Vec2& from
     // The way passes between the entered edge's ends a and b; the side of the apex c tells which
     // other edge it leaves by. It may start in a or b, so go by the end further from the way.
     const std::size_t a = entered % 3, b = next(a), c = next(b);
-    const double side_a = turn(from, to, corners[a]), side_b = turn(from, to, corners[b]);
-    const double side_c = turn(from, to, corners[c]);
+    const double side_a = twice_area(from, to, corners[a]),
+                 side_b = twice_area(from, to, corners[b]);
+    const double side_c = twice_area(from, to, corners[c]);
     const bool by_b =
         std::abs(side_b) >= std::abs(side_a) ? side_b * side_c <= 0 : side_a * side_c > 0;
     const std::size_t exit = by_b ? b : c;
     edge = int(exit);
     const Vec2 &p = corners[exit], &q = corners[next(exit)];
-    const double side_p = turn(from, to, p), side_q = turn(from, to, q);
+    const double side_p = twice_area(from, to, p), side_q = twice_area(from, to, q);
     const double t = side_p == side_q ? 0 : std::clamp(side_p / (side_p - side_q), 0.0, 1.0);
     end.point = p + t * (q - p);
   }
@@ -200,8 +192,8 @@ WalkEnd UnfoldedWalk::walk(const LaidFace& start, const Vec2& from, const Vec2& 
   // Beyond two: their common corner lies left or right of the way.
   const std::size_t first = next(beyond[0]) == beyond[1] ? beyond[0] : beyond[1];
   const std::size_t corner = next(first);
-  const double winding = turn(corners[0], corners[1], corners[2]) > 0 ? 1 : -1;
-  const double side = winding * turn(from, to, corners[corner]);
+  const double winding = twice_area(corners[0], corners[1], corners[2]) > 0 ? 1 : -1;
+  const double side = winding * twice_area(from, to, corners[corner]);
   const std::size_t choice = side > 0 ? first : corner;
   const WalkEnd result = walk_out<by_uv>(start, int(choice), from, to);
   const bool through_corner =

@@ -1,5 +1,5 @@
-// Walking straight over a mesh, faces unfolded into one plane on the way (internal: the gutter
-// finds what lies beyond a seam with it).
+// Walking straight over a mesh, faces unfolded into one plane on the way (internal: it finds what
+// lies beyond a seam).
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "onmesh/atlas/texel_map.h"
+#include "onmesh/base/triangle.h"
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {
@@ -30,11 +31,12 @@ struct WalkEnd {
   bool arrived = false;  ///< else the way is barred at the point, on the face's border
 };
 
-/// Barycentric coordinates in a triangle of the plane; not finite if it has no area.
-Vec3 barycentric_in(const std::array<Vec2, 3>& triangle, const Vec2& p);
-
+/// Straight walks over a mesh: over each edge into the next face, which is unfolded into the plane
+/// of the ones before (straightest geodesics of Polthier and Schmies, "Straightest geodesics on
+/// polyhedral surfaces", 1998; they do not say what happens where more than two faces meet).
 class UnfoldedWalk {
  public:
+  /// \pre mesh and map belong together and outlive this
   UnfoldedWalk(const TriangleMesh& mesh, const TexelMap& map);
 
   /// The face on its own, corner 0 at the origin.
@@ -52,9 +54,9 @@ class UnfoldedWalk {
   /// Corners of a face in pixels.
   std::array<Vec2, 3> pixel_corners(Index face) const;
 
-  /// Face 3 f + k across edge k of face f, as 3 g + l; kNone at borders. Where more than two faces
-  /// meet it is the one that goes on most straight (the one that would be least folded there; the
-  /// lowest of equals), so that coming back may lead elsewhere.
+  /// What lies across edge k of the face: edge l of face g as 3 g + l, kNone at borders. Where more
+  /// than two faces meet it is the one that goes on most straight (the one that would be least
+  /// folded there; the lowest of equals), so that coming back may lead elsewhere.
   Index across(Index face, int k) const { return across_[side(face, k)]; }
   /// The same among the faces with the same UVs there; kNone if there are none.
   Index across_in_chart(Index face, int k) const;
@@ -74,7 +76,7 @@ class UnfoldedWalk {
 
   const TriangleMesh& mesh_;
   const TexelMap& map_;
-  std::vector<Index> across_;
+  std::vector<Index> across_;                      ///< per side 3 f + k
   std::vector<std::pair<Index, Index>> in_chart_;  ///< sides where that is another face, ascending
 };
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <string>
+
+#include "onmesh/atlas/face_textures.h"
 
 namespace onmesh {
 namespace {
@@ -105,11 +105,11 @@ class Raster {
   std::vector<Index> counts_;
 };
 
-}  // namespace
-
-UvOverlap estimate_overlap(const TriangleMesh& mesh) {
-  // Cells and rows that the finest raster would visit, in tiles.
-  double tiles = 0, heights = 0;
+/// Cells along a tile's side: so many that visiting the cells and rows of all faces does not take
+/// long.
+std::int64_t choose_size(const TriangleMesh& mesh) {
+  constexpr double kMostWork = 1 << 28;
+  double tiles = 0, heights = 0;  // areas and heights of the faces' boxes, in tiles
   Triangle t;
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     if (!prepare(mesh, f, t)) continue;
@@ -119,23 +119,27 @@ UvOverlap estimate_overlap(const TriangleMesh& mesh) {
     tiles += height * static_cast<double>(right - left) / static_cast<double>(kTile) / 2;
     heights += height;
   }
-  constexpr double kMostWork = 1 << 28;
   std::int64_t size = kFinest;
   const auto work = [&] {
     return static_cast<double>(size) * (tiles * static_cast<double>(size) + 8 * heights);
   };
   while (size > 1 && work() > kMostWork) size /= 2;
-  std::map<std::string, std::vector<Index>> faces_of_texture;
-  for (Index f = 0; f < mesh.faces.size(); ++f) {
-    if (!mesh.has_uvs(f)) continue;
-    const Index material = mesh.face_materials[f];
-    faces_of_texture[material == kNone ? std::string() : mesh.materials[material].texture]
-        .push_back(f);
-  }
+  return size;
+}
+
+}  // namespace
+
+UvOverlap estimate_overlap(const TriangleMesh& mesh) {
+  const FaceTextures textures = number_textures(mesh);
+  std::vector<std::vector<Index>> faces_of_texture(textures.count);
+  for (Index f = 0; f < mesh.faces.size(); ++f)
+    if (mesh.has_uvs(f)) faces_of_texture[textures.of_face[f]].push_back(f);
   std::size_t covered = 0, shared = 0;
   UvOverlap result;
-  Raster raster(size);
-  for (const auto& [texture, faces] : faces_of_texture) {
+  Raster raster(choose_size(mesh));
+  Triangle t;
+  for (const std::vector<Index>& faces : faces_of_texture) {
+    if (faces.empty()) continue;
     for (const Index f : faces) {
       if (prepare(mesh, f, t)) raster.add(t);
     }

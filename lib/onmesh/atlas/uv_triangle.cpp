@@ -1,13 +1,13 @@
 #include "onmesh/atlas/uv_triangle.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "onmesh/base/plane.h"
+#include "onmesh/base/triangle.h"
+
 namespace onmesh {
-namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-}  // namespace
 
 Vec2 to_pixels(const Vec2& uv, int width, int height) {
   return {uv.x() * width, (1 - uv.y()) * height};
@@ -24,16 +24,15 @@ double pixel_tolerance(const TriangleMesh& mesh, const std::vector<bool>& used, 
   return std::max(1e-9, 16 * std::numeric_limits<double>::epsilon() * largest);
 }
 
-double squared_distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b, double* t) {
-  const Vec2 d = b - a;
-  const double length2 = d.squaredNorm();
-  const double s = length2 > 0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0.0;
-  if (t != nullptr) *t = s;
-  return (p - (a + s * d)).squaredNorm();
+double texel_area(const TriangleMesh& mesh, Index face, const UvTriangle& triangle) {
+  const auto p = mesh.corners(face);
+  const double surface = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
+  const double texel = surface / std::abs(triangle.area);
+  return !triangle.flat && texel > 0 && std::isfinite(texel) ? texel : 0;
 }
 
-PixelTriangle::PixelTriangle(const TriangleMesh& mesh, Index face, int width, int height,
-                             double tolerance) {
+UvTriangle::UvTriangle(const TriangleMesh& mesh, Index face, int width, int height,
+                       double tolerance) {
   const auto& uv = mesh.face_uvs[face];
   for (std::size_t k = 0; k < 3; ++k) corners[k] = to_pixels(mesh.uvs[uv[k]], width, height);
   low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
@@ -54,7 +53,7 @@ PixelTriangle::PixelTriangle(const TriangleMesh& mesh, Index face, int width, in
   flat = !(2 * std::abs(area) > 4 * tolerance * longest);
 }
 
-int PixelTriangle::locate(const Vec2& p, double tolerance) const {
+int UvTriangle::locate(const Vec2& p, double tolerance) const {
   int on = 0;
   bool outside = false;
   if (!flat) {
@@ -78,7 +77,7 @@ int PixelTriangle::locate(const Vec2& p, double tolerance) const {
   return near ? on : -1;
 }
 
-double PixelTriangle::squared_distance(const Vec2& p) const {
+double UvTriangle::squared_distance(const Vec2& p) const {
   bool inside = area != 0;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
@@ -89,13 +88,13 @@ double PixelTriangle::squared_distance(const Vec2& p) const {
   return inside ? 0 : least;
 }
 
-std::pair<std::int64_t, std::int64_t> PixelTriangle::rows(double tolerance) const {
+std::pair<std::int64_t, std::int64_t> UvTriangle::rows(double tolerance) const {
   return {std::int64_t(std::floor(low.y() + tolerance)),
           std::int64_t(std::ceil(high.y() - tolerance))};
 }
 
-std::pair<std::int64_t, std::int64_t> PixelTriangle::columns(std::int64_t row,
-                                                             double tolerance) const {
+std::pair<std::int64_t, std::int64_t> UvTriangle::columns(std::int64_t row,
+                                                          double tolerance) const {
   // What a row of squares cuts out is convex with its corners on the triangle's edges, so its
   // extent in x decides which squares it meets.
   const double top = double(row), bottom = top + 1;
@@ -123,7 +122,7 @@ std::pair<std::int64_t, std::int64_t> PixelTriangle::columns(std::int64_t row,
   return {std::int64_t(std::floor(left + tolerance)), std::int64_t(std::ceil(right - tolerance))};
 }
 
-std::size_t PixelTriangle::clip(std::int64_t x, std::int64_t y, Polygon& polygon) const {
+std::size_t UvTriangle::clip(std::int64_t x, std::int64_t y, Polygon& polygon) const {
   Polygon next;
   std::size_t size = 3;
   const Vec2 corner{double(x), double(y)};
@@ -144,7 +143,7 @@ std::size_t PixelTriangle::clip(std::int64_t x, std::int64_t y, Polygon& polygon
   return size;
 }
 
-double PixelTriangle::area_in(std::int64_t x, std::int64_t y) const {
+double UvTriangle::area_in(std::int64_t x, std::int64_t y) const {
   Polygon polygon;
   const std::size_t size = clip(x, y, polygon);
   double twice = 0;
@@ -152,25 +151,12 @@ double PixelTriangle::area_in(std::int64_t x, std::int64_t y) const {
   return std::abs(twice) / 2;
 }
 
-Vec2 PixelTriangle::point_in(std::int64_t x, std::int64_t y) const {
+Vec2 UvTriangle::point_in(std::int64_t x, std::int64_t y) const {
   Polygon polygon;
   const std::size_t size = clip(x, y, polygon);
   Vec2 sum = Vec2::Zero();
   for (std::size_t i = 0; i < size; ++i) sum += polygon[i];
   return Vec2(double(x), double(y)) + sum / double(size);
-}
-
-UvNeighbours::UvNeighbours(const TriangleMesh& mesh, const std::vector<bool>& used)
-    : mesh_(mesh), offsets_(mesh.uvs.size() + 1, 0) {
-  for (Index f = 0; f < mesh.faces.size(); ++f)
-    if (used[f])
-      for (const Index uv : mesh.face_uvs[f]) ++offsets_[uv + 1];
-  for (std::size_t i = 1; i < offsets_.size(); ++i) offsets_[i] += offsets_[i - 1];
-  faces_.resize(offsets_.back());
-  std::vector<Index> next(offsets_.begin(), offsets_.end() - 1);
-  for (Index f = 0; f < mesh.faces.size(); ++f)
-    if (used[f])
-      for (const Index uv : mesh.face_uvs[f]) faces_[next[uv]++] = f;
 }
 
 }  // namespace onmesh

@@ -2,12 +2,7 @@
 // (internal: the texel map and the gutter are made with it).
 #pragma once
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -16,17 +11,8 @@
 
 namespace onmesh {
 
-/// body(i) for every i below size, in any order and on all threads.
-template <class Body>
-void parallel_over(std::size_t size, Body&& body) {
-  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, size, 16),
-                            [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
-                              for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
-                            });
-}
-
-/// A UV triangle in pixels: x = u W to the right, y = (1 - v) H down, texel centres at +.5.
-struct PixelTriangle {
+/// A face's UV triangle in pixels: x = u W to the right, y = (1 - v) H down, texel centres at +.5.
+struct UvTriangle {
   /// Edge k runs from corner k to corner k + 1. Its line is kept from the corner of the lower UV
   /// index to the other, so that two faces of a shared edge get exactly opposite values.
   struct Edge {
@@ -40,7 +26,11 @@ struct PixelTriangle {
   bool flat = true;  ///< too thin to hold a centre of its own
   Vec2 low, high;    ///< bounding box
 
-  PixelTriangle(const TriangleMesh& mesh, Index face, int width, int height, double tolerance);
+  /// \param width of the image in texels
+  /// \param height of the image in texels
+  /// \param tolerance pixels: a triangle thinner than four times that is flat
+  /// \pre mesh.has_uvs(face)
+  UvTriangle(const TriangleMesh& mesh, Index face, int width, int height, double tolerance);
 
   /// Signed distance from edge k's line in pixels, positive inside.
   double edge_value(int k, const Vec2& p) const {
@@ -55,11 +45,11 @@ struct PixelTriangle {
   /// Squared distance in pixels, 0 inside.
   double squared_distance(const Vec2& p) const;
 
-  /// Rows (of squares) that the triangle meets with positive area: [first, second).
+  /// Rows (of texels) that the triangle meets with positive area: [first, second).
   std::pair<std::int64_t, std::int64_t> rows(double tolerance) const;
-  /// Columns it meets within a row of squares: [first, second).
+  /// Columns it meets within a row of texels: [first, second).
   std::pair<std::int64_t, std::int64_t> columns(std::int64_t row, double tolerance) const;
-  /// Area within the texel's square.
+  /// Area within the square of texel (x, y), in texels.
   double area_in(std::int64_t x, std::int64_t y) const;
   /// A point of the triangle within the texel's square, in its inside if they overlap.
   /// \pre they meet
@@ -67,62 +57,24 @@ struct PixelTriangle {
 
  private:
   using Polygon = std::array<Vec2, 8>;
-  /// Clip to the texel's square, coordinates relative to the square's corner; returns the size.
+  /// Clip to the texel's square (Sutherland and Hodgman 1974), coordinates relative to the square's
+  /// corner.
+  /// \return the number of the polygon's corners
   std::size_t clip(std::int64_t x, std::int64_t y, Polygon& polygon) const;
 };
 
+/// A UV in pixels of a width x height image.
 Vec2 to_pixels(const Vec2& uv, int width, int height);
 
 /// Distances below this many pixels count as none: 1e-9, more where coordinates are so large that
 /// they are not that exact.
+/// \param used faces that count; the others need no UVs
 double pixel_tolerance(const TriangleMesh& mesh, const std::vector<bool>& used, int width,
                        int height);
 
-/// Squared distance from a segment, and the parameter in [0,1] of the closest point on it.
-double squared_distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b,
-                                   double* t = nullptr);
-
-/// The faces around each UV index, to find who shares an edge or a vertex of a chart: there both
-/// the position and the UV are the same.
-class UvNeighbours {
- public:
-  UvNeighbours(const TriangleMesh& mesh, const std::vector<bool>& used);
-
-  /// Call visit(face) for every other face that has edge k of the face, with equal UVs.
-  template <class Visit>
-  void across_edge(Index face, int k, Visit&& visit) const {
-    const int l = (k + 1) % 3;
-    const auto& p = mesh_.faces[face];
-    const auto& u = mesh_.face_uvs[face];
-    const std::size_t a = std::size_t(k), b = std::size_t(l);
-    const Index around = count(u[a]) <= count(u[b]) ? u[a] : u[b];
-    for (Index i = offsets_[around]; i < offsets_[around + 1]; ++i) {
-      const Index other = faces_[i];
-      if (other != face && has_corner(other, p[a], u[a]) && has_corner(other, p[b], u[b]) &&
-          (i == offsets_[around] || faces_[i - 1] != other))
-        visit(other);
-    }
-  }
-
-  /// Call visit(face) for every other face that has corner k of the face, with an equal UV.
-  template <class Visit>
-  void around_corner(Index face, int k, Visit&& visit) const {
-    const Index p = mesh_.faces[face][std::size_t(k)], u = mesh_.face_uvs[face][std::size_t(k)];
-    for (Index i = offsets_[u]; i < offsets_[u + 1]; ++i)
-      if (faces_[i] != face && has_corner(faces_[i], p, u)) visit(faces_[i]);
-  }
-
- private:
-  Index count(Index uv) const { return offsets_[uv + 1] - offsets_[uv]; }
-  bool has_corner(Index face, Index position, Index uv) const {
-    const auto& p = mesh_.faces[face];
-    const auto& u = mesh_.face_uvs[face];
-    return (p[0] == position && u[0] == uv) || (p[1] == position && u[1] == uv) ||
-           (p[2] == position && u[2] == uv);
-  }
-
-  const TriangleMesh& mesh_;
-  std::vector<Index> offsets_, faces_;
-};
+/// Surface area of one whole texel on the face, mesh units squared.
+/// \param triangle of that face
+/// \return 0 if the face cannot be rasterised: it has no surface area or its UV triangle is flat
+double texel_area(const TriangleMesh& mesh, Index face, const UvTriangle& triangle);
 
 }  // namespace onmesh

@@ -26,7 +26,8 @@ HWY_INLINE __m256i nearest_raw(__m256 x) { return _mm256_cvtps_epi32(x); }
 #if HWY_TARGET <= HWY_AVX3
 HWY_INLINE __m512i nearest_raw(__m512 x) { return _mm512_cvtps_epi32(x); }
 #endif
-/// The nearest integers. \pre |x| < 2^31
+/// The nearest integers.
+/// \pre |x| < 2^31
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Vec<hn::RebindToSigned<D>> nearest_in_range(D, V x) {
   return hn::Vec<hn::RebindToSigned<D>>{nearest_raw(x.raw)};
@@ -38,7 +39,8 @@ HWY_INLINE hn::Vec<hn::RebindToSigned<D>> nearest_in_range(D, V x) {
 }
 #endif
 
-/// 2^(x / kExponentUnit) with a relative error below 2.7e-6. \pre x / kExponentUnit in [-126, 127]
+/// 2^(x / kExponentUnit) with a relative error below 2.7e-6.
+/// \pre x / kExponentUnit in [-126, 127]
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V exp2_of_units(D d, V x) {
   const hn::RebindToSigned<D> di;

@@ -1,10 +1,14 @@
-// Random numbers with the same bits everywhere: splitmix64 (Steele, Lea & Flood 2014).
+// Random numbers with the same bits on every machine: a stream of them, and one for each place.
 #pragma once
 
 #include <cstdint>
 
 namespace onmesh {
 
+/// The highest 53 of 64 random bits as a number in [0, 1).
+inline double unit_of_bits(std::uint64_t bits) { return double(bits >> 11) * 0x1p-53; }
+
+/// A stream of random numbers: splitmix64 (Steele, Lea and Flood 2014).
 class SplitMix {
  public:
   explicit SplitMix(std::uint64_t seed) : state_(seed) {}
@@ -20,10 +24,19 @@ class SplitMix {
     return z ^ (z >> 31);
   }
   /// In [0, 1).
-  double uniform() { return double(next() >> 11) * 0x1p-53; }
+  double uniform() { return unit_of_bits(next()); }
 
  private:
   std::uint64_t state_;
 };
+
+/// The random bits that belong to a place: well mixed from a seed and up to three numbers, the same
+/// whenever they are asked for.
+std::uint64_t random_bits_at(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0,
+                             std::uint64_t c = 0);
+
+/// The same as a number in [0, 1).
+double random_unit_at(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0,
+                      std::uint64_t c = 0);
 
 }  // namespace onmesh

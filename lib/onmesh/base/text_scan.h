@@ -1,49 +1,19 @@
 // A cursor over a text file, token by token and line by line: what the text readers share.
 #pragma once
 
-#include <charconv>
-#include <cmath>
-#include <limits>
+#include <cstddef>
 #include <string>
 #include <string_view>
-
-#include "onmesh/base/error.h"
 
 namespace onmesh {
 
 /// A piece of a file for an error message: short, printable, on one line.
-inline std::string quote(std::string_view text) {
-  constexpr std::size_t kLongest = 40;
-  std::string result = "'";
-  for (const char c : text.substr(0, kLongest)) {
-    result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  }
-  return result + (text.size() > kLongest ? "...'" : "'");
-}
+std::string quote(std::string_view text);
 
 /// The value of a numeric token, independent of the locale; not finite for "nan", "inf", overflow
-/// and the "1.#QNAN" of old C libraries. A number too small for a double is 0. \return false if the
-/// token is no number
-inline bool parse_number(std::string_view token, double& value) {
-  const char* begin = token.data();
-  const char* const end = begin + token.size();
-  if (token.size() > 1 && *begin == '+' && begin[1] != '-' && begin[1] != '+') ++begin;
-  const auto [last, error] = std::from_chars(begin, end, value);
-  if (error == std::errc::result_out_of_range && last == end) {
-    const std::size_t exponent = token.find_first_of("eE");
-    const std::size_t digit = token.find_first_of("123456789.");
-    const bool small =
-        exponent != std::string_view::npos ? token[exponent + 1] == '-' : token[digit] == '.';
-    value = small ? 0 : std::numeric_limits<double>::infinity();
-    return true;
-  }
-  if (error == std::errc() && last == end) return true;
-  if (error == std::errc() && *last == '#' && last[-1] == '.') {
-    value = std::numeric_limits<double>::quiet_NaN();
-    return true;
-  }
-  return false;
-}
+/// and the "1.#QNAN" of old C libraries. A number too small for a double is 0.
+/// \return false if the token is no number
+bool parse_number(std::string_view token, double& value);
 
 /// What a format's lines may hold besides tokens.
 enum class Syntax {
@@ -52,106 +22,51 @@ enum class Syntax {
   comments_continuations,  ///< and a backslash before the line's end joins it with the next
 };
 
-/// Lines end with LF, CR LF or CR.
+/// Lines end with LF, CR LF or CR. Tokens are separated by blanks.
 class TextScan {
  public:
-  TextScan(std::string_view text, std::string file, Syntax syntax)
-      : at_(text.data()),
-        end_(at_ + text.size()),
-        file_(std::move(file)),
-        comments_(syntax != Syntax::plain),
-        continuations_(syntax == Syntax::comments_continuations) {
-    if (text.starts_with("\xef\xbb\xbf")) at_ += 3;  // UTF-8 byte order mark
-  }
+  /// \param text must outlive the scan; a byte order mark of UTF-8 at its start is skipped
+  /// \param file the name that error messages begin with
+  TextScan(std::string_view text, std::string file, Syntax syntax);
 
   bool at_end() const { return at_ == end_; }
-  std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_); }
-  std::size_t line() const { return line_; }
+  std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_); }  ///< bytes
+  std::size_t line() const { return line_; }                                      ///< from 1
   const char* position() const { return at_; }
   void set_line(std::size_t line) { line_ = line; }
 
   /// Go to the line's next token.
   /// \return false at the line's end
-  bool skip_blank() {
-    while (at_ != end_) {
-      if (*at_ == ' ' || *at_ == '\t' || *at_ == '\f' || *at_ == '\v') {
-        ++at_;
-      } else if (*at_ == '\\' && continuations_ && at_ + 1 != end_ &&
-                 (at_[1] == '\n' || at_[1] == '\r')) {
-        ++at_;
-        skip_line_end();
-      } else {
-        return *at_ != '\n' && *at_ != '\r' && !(comments_ && *at_ == '#');
-      }
-    }
-    return false;
-  }
+  bool skip_blank();
 
   /// The next token of this line; empty at the line's end.
-  std::string_view token() {
-    if (!skip_blank()) return {};
-    const char* const begin = at_;
-    while (at_ != end_ && !is_blank(*at_)) ++at_;
-    // A continuation may follow a token without a space.
-    if (continuations_ && at_ != end_ && (*at_ == '\n' || *at_ == '\r') && at_ - begin > 1 &&
-        at_[-1] == '\\')
-      --at_;
-    return {begin, static_cast<std::size_t>(at_ - begin)};
-  }
+  std::string_view token();
 
   /// The next token of this or a later line; empty at the file's end.
-  std::string_view token_anywhere() {
-    while (!skip_blank()) {
-      if (at_end()) return {};
-      next_line();
-    }
-    return token();
-  }
+  std::string_view token_anywhere();
 
   /// What is left of this line without blanks at its ends; comments and continuations count as
   /// text.
-  std::string_view rest_of_line() {
-    while (at_ != end_ && (*at_ == ' ' || *at_ == '\t')) ++at_;
-    const char* const begin = at_;
-    while (at_ != end_ && *at_ != '\n' && *at_ != '\r') ++at_;
-    const char* last = at_;
-    while (last != begin && (last[-1] == ' ' || last[-1] == '\t')) --last;
-    return {begin, static_cast<std::size_t>(last - begin)};
-  }
+  std::string_view rest_of_line();
 
   /// Skip the rest of this line and the lines that continue it. A comment is not continued: it may
   /// well end with a Windows path.
-  void next_line() {
-    const bool comment = !skip_blank() && at_ != end_ && *at_ == '#';
-    for (;;) {
-      while (at_ != end_ && *at_ != '\n' && *at_ != '\r') ++at_;
-      if (at_ == end_) return;
-      const bool continued = continuations_ && !comment && at_ != start_ && at_[-1] == '\\';
-      skip_line_end();
-      if (!continued) return;
-    }
-  }
+  void next_line();
 
   /// The number that comes next on this line; may be NaN or infinite.
+  /// \param what names the number in error messages
+  /// \throw InputError if it is missing or is no number
   double number(const char* what) { return number(token(), what); }
-  double number(std::string_view text, const char* what) const {
-    double value = 0;
-    if (text.empty()) fail(std::string(what) + " is missing");
-    if (!parse_number(text, value)) fail(std::string(what) + " is not a number: " + quote(text));
-    return value;
-  }
-  /// The same, refused unless finite.
-  double finite(const char* what) {
-    const std::string_view text = token();
-    const double value = number(text, what);
-    if (!std::isfinite(value)) fail(std::string(what) + " is not finite: " + quote(text));
-    return value;
-  }
+  /// The same of a token that was taken already.
+  double number(std::string_view text, const char* what) const;
+  /// The number that comes next on this line.
+  /// \throw InputError also if it is not finite
+  double finite(const char* what);
 
+  /// \throw InputError naming the file and the current line
   [[noreturn]] void fail(const std::string& what) const { fail_at(line_, what); }
-  [[noreturn]] void fail_at(std::size_t line, const std::string& what) const {
-    throw InputError(file_ + ":" + std::to_string(line) + ": " + what);
-  }
+  /// \throw InputError naming the file and that line
+  [[noreturn]] void fail_at(std::size_t line, const std::string& what) const;
 
  private:
   static bool is_blank(char c) {
@@ -171,5 +86,33 @@ class TextScan {
   bool comments_;
   bool continuations_;
 };
+
+// These two take most of the time of reading.
+
+inline bool TextScan::skip_blank() {
+  while (at_ != end_) {
+    if (*at_ == ' ' || *at_ == '\t' || *at_ == '\f' || *at_ == '\v') {
+      ++at_;
+    } else if (*at_ == '\\' && continuations_ && at_ + 1 != end_ &&
+               (at_[1] == '\n' || at_[1] == '\r')) {
+      ++at_;
+      skip_line_end();
+    } else {
+      return *at_ != '\n' && *at_ != '\r' && !(comments_ && *at_ == '#');
+    }
+  }
+  return false;
+}
+
+inline std::string_view TextScan::token() {
+  if (!skip_blank()) return {};
+  const char* const begin = at_;
+  while (at_ != end_ && !is_blank(*at_)) ++at_;
+  // A continuation may follow a token without a space.
+  if (continuations_ && at_ != end_ && (*at_ == '\n' || *at_ == '\r') && at_ - begin > 1 &&
+      at_[-1] == '\\')
+    --at_;
+  return {begin, static_cast<std::size_t>(at_ - begin)};
+}
 
 }  // namespace onmesh

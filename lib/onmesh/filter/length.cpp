@@ -8,16 +8,17 @@
 
 namespace onmesh {
 
-Length parse_length(std::string_view flag, std::string_view text) {
+Length parse_length(std::string_view option, std::string_view text) {
   Length length;
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, length.value);
   const std::string_view unit(rest, std::size_t(end - rest));
   const bool known = unit.empty() || unit == "tx" || unit == "%";
   if (error != std::errc() || !known || !std::isfinite(length.value) || !(length.value > 0)) {
-    throw UsageError(std::string(flag) + ": \"" + std::string(text) +
-                     "\" is not a positive length such as 0.2 (mesh units), 8tx (texels) or 1% "
-                     "(of the diagonal)");
+    throw OptionError(std::string(option),
+                      '"' + std::string(text) +
+                          "\" is not a positive length such as 0.2 (mesh units), 8tx (texels) or "
+                          "1% (of the diagonal)");
   }
   if (unit == "tx") length.unit = Length::Unit::texel;
   if (unit == "%") length.unit = Length::Unit::percent;

@@ -7,17 +7,26 @@
 namespace onmesh {
 
 struct Length {
-  enum class Unit { mesh, texel, percent };
+  enum class Unit {
+    mesh,
+    texel,    ///< median width of the atlas's texels on the surface
+    percent,  ///< of the bounding box's diagonal
+  };
   double value = 0;
   Unit unit = Unit::mesh;
 };
 
-/// \throw UsageError naming `flag` unless the text is a positive finite number with an optional
-/// unit
-Length parse_length(std::string_view flag, std::string_view text);
+/// Read a positive finite number with an optional unit: "0.2", "8tx" or "1%".
+/// \param option what the length is for, as the error names it
+/// \throw OptionError if the text is anything else
+Length parse_length(std::string_view option, std::string_view text);
+
+/// The shortest text that parse_length() reads as the same length.
 std::string to_string(const Length& length);
 
-/// In mesh units, given the texel size (median_texel_size) and the bounding box's diagonal.
+/// The length in mesh units.
+/// \param texel_size mesh units: TexelMap::median_texel_size()
+/// \param diagonal mesh units: TriangleMesh::diagonal()
 double resolve(const Length& length, double texel_size, double diagonal);
 
 }  // namespace onmesh

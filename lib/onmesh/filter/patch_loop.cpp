@@ -25,6 +25,31 @@ double thread_seconds() {
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
+/// How many targets the node faces have.
+struct TargetCounts {
+  std::vector<double> of_face;
+  Index last_face = kNone;   ///< the last one that has any
+  CheckedKernel::Size size;  ///< of the faces that have any
+};
+
+TargetCounts count_targets(const PatchWork& work) {
+  const NodeMesh& nodes = *work.nodes;
+  TargetCounts counts;
+  counts.of_face.resize(nodes.faces.size());
+  counts.size.samples = double(work.sources->samples.size());
+  counts.size.targets = double(work.targets->samples.size());
+  std::vector<bool> is_needed(nodes.nodes.size(), false);
+  for (Index f = 0; f < counts.of_face.size(); ++f) {
+    counts.of_face[f] = work.targets->face_offsets[f + 1] - work.targets->face_offsets[f];
+    if (counts.of_face[f] == 0) continue;
+    counts.last_face = f;
+    counts.size.area += nodes.face_area(f);
+    for (const Index n : nodes.faces[f]) is_needed[n] = true;
+  }
+  counts.size.nodes = double(std::count(is_needed.begin(), is_needed.end(), true));
+  return counts;
+}
+
 /// Targets per patch. Large cores waste less: nodes between patches and halos are computed again by
 /// each of them. But all threads need patches to the end, and tables should stay in the cache. By
 /// nodes the halo costs as much as the core, which should be large beside sigma.
@@ -78,6 +103,17 @@ class PatchFilter {
     }
     work_.backend->fill(patch, reach, table_);
     const double filled = thread_seconds();
+    sum(patch, counts);
+    store_values(patch);
+    ++counts.patches;
+    counts.table_rows += patch.core_nodes;
+    counts.table_cpu_seconds += filled - start;
+    counts.kernel_cpu_seconds += thread_seconds() - filled;
+  }
+
+ private:
+  /// From the table to values_, on the nodes or directly.
+  void sum(const Patch& patch, PatchCounts& counts) {
     const KernelInput input{&patch, &table_, work_.sources, work_.targets, work_.colours, nullptr};
     KernelCounts kernel;
     NodeCheck check;
@@ -88,6 +124,11 @@ class PatchFilter {
       kernel = kernel_.run(input, values_);
       counts.pairs_within += double(kernel.pairs);
     }
+    counts.pairs += kernel.pairs;
+    counts.without_sample += kernel.without_sample;
+  }
+
+  void store_values(const Patch& patch) const {
     const float* values = values_.data();
     for (Index f = 0; f < patch.core_faces; ++f) {
       const Index begin = work_.targets->face_offsets[patch.faces[f]];
@@ -95,15 +136,9 @@ class PatchFilter {
       store_(begin, end, values);
       values += std::size_t(end - begin) * std::size_t(work_.colours.channels);
     }
-    ++counts.patches;
-    counts.pairs += kernel.pairs;
-    counts.without_sample += kernel.without_sample;
-    counts.table_rows += patch.core_nodes;
-    counts.table_cpu_seconds += filled - start;
-    counts.kernel_cpu_seconds += thread_seconds() - filled;
   }
 
- private:
+  /// \param reach how far the core's distances must be right
   Patch grow(const std::vector<Index>& core, double& reach) const {
     const double radius = work_.kernel.radius * std::sqrt(1 + 1e-5);
     if (!extents_.empty()) {
@@ -152,23 +187,12 @@ void PatchCounts::add(const PatchCounts& other) {
 
 PatchCounts filter_patches(const PatchWork& work, const StoreResults& store,
                            const std::function<void(double)>& progress) {
-  const NodeMesh& nodes = *work.nodes;
-  std::vector<double> weights(nodes.faces.size());
-  std::vector<bool> is_needed(nodes.nodes.size(), false);
-  CheckedKernel::Size size;
-  size.samples = double(work.sources->samples.size());
-  size.targets = double(work.targets->samples.size());
-  for (Index f = 0; f < weights.size(); ++f) {
-    weights[f] = work.targets->face_offsets[f + 1] - work.targets->face_offsets[f];
-    if (weights[f] == 0) continue;
-    size.area += nodes.face_area(f);
-    for (const Index n : nodes.faces[f]) is_needed[n] = true;
-  }
-  size.nodes = double(std::count(is_needed.begin(), is_needed.end(), true));
+  const TargetCounts targets = count_targets(work);
+  const CheckedKernel::Size& size = targets.size;
   const bool by_nodes = choose_nodes(work, size);
   const double sigma = work.kernel.sigma_spatial;
   const std::vector<std::vector<Index>> cores = partition_faces(
-      nodes, weights,
+      *work.nodes, targets.of_face,
       target_weight(size.targets, by_nodes, sigma * sigma * size.targets / size.area));
 
   const std::vector<double> extents = extents_for(work);
@@ -185,7 +209,7 @@ PatchCounts filter_patches(const PatchWork& work, const StoreResults& store,
         for (std::size_t k = range.begin(); k != range.end(); ++k) {
           filter.run(cores[k], counts[k]);
           double weight = 0;
-          for (const Index f : cores[k]) weight += weights[f];
+          for (const Index f : cores[k]) weight += targets.of_face[f];
           const std::lock_guard lock(progress_mutex);
           done += weight;
           if (progress) progress(done / size.targets);
@@ -199,21 +223,14 @@ PatchCounts filter_patches(const PatchWork& work, const StoreResults& store,
 }
 
 double estimate_table_seconds(const PatchWork& work) {
-  const NodeMesh& nodes = *work.nodes;
-  std::vector<bool> needed(nodes.nodes.size(), false);
-  Index face = kNone;
-  for (Index f = 0; f < nodes.faces.size(); ++f) {
-    if (work.targets->face_offsets[f] == work.targets->face_offsets[f + 1]) continue;
-    face = f;
-    for (const Index n : nodes.faces[f]) needed[n] = true;
-  }
-  if (face == kNone) return 0;
+  const TargetCounts targets = count_targets(work);
+  if (targets.last_face == kNone) return 0;
   PatchCounts counts;
   const StoreResults nothing = [](Index, Index, const float*) {};
   const std::vector<double> extents = extents_for(work);
-  PatchFilter(work, false, extents, nothing).run({face}, counts);
+  PatchFilter(work, false, extents, nothing).run({targets.last_face}, counts);
   // Nodes between patches are sources of each of them: about a third more.
-  const auto sources = double(std::count(needed.begin(), needed.end(), true)) * 1.3;
+  const double sources = targets.size.nodes * 1.3;
   return counts.table_cpu_seconds / double(std::max<std::uint64_t>(counts.table_rows, 1)) * sources;
 }
 

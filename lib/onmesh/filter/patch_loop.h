@@ -1,10 +1,11 @@
 // The filter's main loop: distances and kernel, patch by patch, in parallel.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "onmesh/distance/backend.h"
-#include "onmesh/filter/filter.h"
+#include "onmesh/filter/options.h"
 #include "onmesh/kernel/checked_kernel.h"
 #include "onmesh/kernel/direct/direct_kernel.h"
 
@@ -38,7 +39,7 @@ using StoreResults = std::function<void(Index begin, Index end, const float* val
 
 /// Filter all targets. How they are grouped into patches does not depend on the number of threads.
 /// \param store called from any thread; every target once
-/// \param progress called with the share that is done, never twice at once
+/// \param progress called with the share that is done (0 to 1), never twice at once; may be empty
 PatchCounts filter_patches(const PatchWork& work, const StoreResults& store,
                            const std::function<void(double)>& progress);
 

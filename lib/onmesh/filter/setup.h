@@ -1,48 +1,25 @@
-// The first part of the filter: checked options, cleaned mesh, texel map, resolved lengths.
+// The first part of the filter, which plan_filter() stops after: mesh, texel map, resolved lengths.
 #pragma once
 
-#include "onmesh/filter/filter.h"
-#include "onmesh/nodes/refine.h"
+#include "onmesh/filter/options.h"
+#include "onmesh/filter/overlap.h"
+#include "onmesh/filter/prepare_mesh.h"
+#include "onmesh/filter/report.h"
+#include "onmesh/filter/working_plan.h"
+#include "onmesh/mesh/clean.h"
 
 namespace onmesh {
 
-struct FilterSetup {
-  TriangleMesh mesh;  ///< welded and clean, in working units
-  CleanReport cleaning;
-  TexelMap map;
-  FilterPlan plan;      ///< in working units
-  bool graded = false;  ///< Poisson samples follow the size of the texels
-  /// Mesh units per working unit: the power of two that brings the mesh's diagonal near 1, so that
-  /// squared distances in float neither overflow nor vanish, whatever the mesh's unit.
-  double unit = 1;
+struct FilterSetup : PreparedMesh {
+  OverlapPolicy overlap;
+  WorkingPlan lengths;   ///< in working units: what the stages compute with
+  bool graded = false;   ///< Poisson samples follow the size of the texels
+  FilterPlan mesh_plan;  ///< in mesh units, complete: what the user is told
 };
 
-/// The plan's lengths and areas in mesh units.
-FilterPlan in_mesh_units(FilterPlan plan, double unit);
-
+/// Check options, mesh and texture, and find out what the filter will do.
+/// \throw as filter()
 FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
                           const FilterOptions& options);
-
-/// Nodes as the plan wants them, where texels are and as far around as paths between them lead.
-RefineOptions refinement_for(const FilterSetup& setup);
-
-/// Node spacing on flat and on curved surface, and at cones, creases and corners, in mesh units.
-struct NodeSpacing {
-  double flat = 0, curved = 0, finest = 0;
-};
-
-/// The spacing rule: 1.5 sigma where the surface is curved, up to twice that where it is nearly
-/// flat, a quarter of sigma where distances bend; but with enough texels per node face to keep the
-/// kernel busy and tables small: 10 texels where the surface is curved. Interpolation is exact on
-/// flat and folded surface; on curved surface squared distances d^2 are off by about
-/// h^2 d^2 |K| / 12 at spacing h. The table's floats also have to tell pairs within the radius from
-/// others, so spacings beyond 10 texels are at most three radii.
-/// \param depends_on_spacing sigma where the surface is smooth: distances are only as good as the
-///   nodes are close (heat, cloud, bridges), or the result is the distances' alone (Gaussian
-///   filter)
-/// \param by_nodes the sums will be done on the nodes, which therefore follow sigma down to 4
-///   texels
-NodeSpacing node_spacing_for(double sigma, double radius, double texel_size,
-                             bool depends_on_spacing, bool by_nodes);
 
 }  // namespace onmesh

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "onmesh/image/image_io.h"
 #include "onmesh/image/native_pixels.h"
 
 namespace onmesh {

@@ -77,44 +77,42 @@ struct Tag {
   using type = T;
 };
 
+/// Call function(Tag<T>()) with the C++ type of the values.
 template <class Function>
 void with_type(SampleType type, Function&& function) {
-  switch (type) {
-    case OIIO::TypeDesc::UINT8:
-      return function(Tag<std::uint8_t>());
-    case OIIO::TypeDesc::INT8:
-      return function(Tag<std::int8_t>());
-    case OIIO::TypeDesc::UINT16:
-      return function(Tag<std::uint16_t>());
-    case OIIO::TypeDesc::INT16:
-      return function(Tag<std::int16_t>());
-    case OIIO::TypeDesc::UINT32:
-      return function(Tag<std::uint32_t>());
-    case OIIO::TypeDesc::INT32:
-      return function(Tag<std::int32_t>());
-    case OIIO::TypeDesc::UINT64:
-      return function(Tag<std::uint64_t>());
-    case OIIO::TypeDesc::INT64:
-      return function(Tag<std::int64_t>());
-    case OIIO::TypeDesc::HALF:
-      return function(Tag<Half>());
-    case OIIO::TypeDesc::DOUBLE:
-      return function(Tag<double>());
-    default:
-      return function(Tag<float>());
-  }
+  using OIIO::TypeDesc;
+  if (type == TypeDesc::UINT8) return function(Tag<std::uint8_t>());
+  if (type == TypeDesc::INT8) return function(Tag<std::int8_t>());
+  if (type == TypeDesc::UINT16) return function(Tag<std::uint16_t>());
+  if (type == TypeDesc::INT16) return function(Tag<std::int16_t>());
+  if (type == TypeDesc::UINT32) return function(Tag<std::uint32_t>());
+  if (type == TypeDesc::INT32) return function(Tag<std::int32_t>());
+  if (type == TypeDesc::UINT64) return function(Tag<std::uint64_t>());
+  if (type == TypeDesc::INT64) return function(Tag<std::int64_t>());
+  if (type == TypeDesc::HALF) return function(Tag<Half>());
+  if (type == TypeDesc::DOUBLE) return function(Tag<double>());
+  return function(Tag<float>());
 }
 
-/// Call function(type, first channel, byte offset, values in a run, runs): one run over everything
-/// when all channels have one type, else one strided pass per channel.
-template <class Function>
-void for_each_pass(const std::vector<SampleType>& types, std::size_t pixels, Function&& function) {
+/// Call convert(Tag<T>(), native, values, count) for runs of values of one type: one run over
+/// everything when all channels have one type, else every value by itself, channel by channel.
+template <class Byte, class Value, class Convert>
+void convert_runs(Byte* native, const std::vector<SampleType>& types, std::size_t pixels,
+                  Value* values, Convert&& convert) {
+  const std::size_t stride = pixel_bytes(types), channels = types.size();
+  const auto pass = [&](SampleType type, std::size_t channel, std::size_t offset, std::size_t run,
+                        std::size_t runs) {
+    with_type(type, [&](auto tag) {
+      for (std::size_t r = 0; r < runs; ++r)
+        convert(tag, native + r * stride + offset, values + r * channels + channel, run);
+    });
+  };
   const bool uniform =
       std::all_of(types.begin(), types.end(), [&](SampleType t) { return t == types[0]; });
-  if (uniform) return function(types[0], std::size_t(0), std::size_t(0), pixels * types.size(), 1);
+  if (uniform) return pass(types[0], 0, 0, pixels * channels, 1);
   std::size_t offset = 0;
-  for (std::size_t c = 0; c < types.size(); ++c) {
-    function(types[c], c, offset, std::size_t(1), pixels);
+  for (std::size_t c = 0; c < channels; ++c) {
+    pass(types[c], c, offset, 1, pixels);
     offset += OIIO::TypeDesc(types[c]).size();
   }
 }
@@ -143,49 +141,33 @@ std::size_t pixel_bytes(const std::vector<SampleType>& types) {
 
 void to_float(const std::byte* native, const std::vector<SampleType>& types, std::size_t pixels,
               float* values) {
-  const std::size_t stride = pixel_bytes(types);
-  for_each_pass(types, pixels,
-                [&](SampleType type, std::size_t channel, std::size_t offset, std::size_t run,
-                    std::size_t runs) {
-                  with_type(type, [&]<class T>(Tag<T>) {
-                    for (std::size_t r = 0; r < runs; ++r) {
-                      const std::byte* in = native + r * stride + offset;
-                      float* out = values + r * types.size() + channel;
-                      if constexpr (std::is_same_v<T, float>) {
-                        std::memcpy(out, in, run * sizeof(float));
-                      } else {
-                        for (std::size_t i = 0; i < run; ++i) {
-                          T value;
-                          std::memcpy(&value, in + i * sizeof(T), sizeof(T));
-                          out[i] = value_of(value);
-                        }
-                      }
-                    }
-                  });
-                });
+  convert_runs(native, types, pixels, values,
+               []<class T>(Tag<T>, const std::byte* in, float* out, std::size_t count) {
+                 if constexpr (std::is_same_v<T, float>) {
+                   std::memcpy(out, in, count * sizeof(float));
+                 } else {
+                   for (std::size_t i = 0; i < count; ++i) {
+                     T value;
+                     std::memcpy(&value, in + i * sizeof(T), sizeof(T));
+                     out[i] = value_of(value);
+                   }
+                 }
+               });
 }
 
 void from_float(const float* values, const std::vector<SampleType>& types, std::size_t pixels,
                 std::byte* native) {
-  const std::size_t stride = pixel_bytes(types);
-  for_each_pass(types, pixels,
-                [&](SampleType type, std::size_t channel, std::size_t offset, std::size_t run,
-                    std::size_t runs) {
-                  with_type(type, [&]<class T>(Tag<T>) {
-                    for (std::size_t r = 0; r < runs; ++r) {
-                      const float* in = values + r * types.size() + channel;
-                      std::byte* out = native + r * stride + offset;
-                      if constexpr (std::is_same_v<T, float>) {
-                        std::memcpy(out, in, run * sizeof(float));
-                      } else {
-                        for (std::size_t i = 0; i < run; ++i) {
-                          const T value = native_of<T>(in[i]);
-                          std::memcpy(out + i * sizeof(T), &value, sizeof(T));
-                        }
-                      }
-                    }
-                  });
-                });
+  convert_runs(native, types, pixels, values,
+               []<class T>(Tag<T>, std::byte* out, const float* in, std::size_t count) {
+                 if constexpr (std::is_same_v<T, float>) {
+                   std::memcpy(out, in, count * sizeof(float));
+                 } else {
+                   for (std::size_t i = 0; i < count; ++i) {
+                     const T value = native_of<T>(in[i]);
+                     std::memcpy(out + i * sizeof(T), &value, sizeof(T));
+                   }
+                 }
+               });
 }
 
 }  // namespace onmesh

@@ -5,10 +5,6 @@
 #include <OpenImageIO/imageio.h>
 
 #include <cstddef>
-#include <filesystem>
-#include <functional>
-#include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -18,12 +14,13 @@ namespace onmesh {
 
 using SampleType = OIIO::TypeDesc::BASETYPE;
 
-/// `native` holds the file's pixels (row-major, channels interleaved, each in its own type) only if
-/// float cannot give them back: 8 and 16 bit integers, half and float can.
+/// What an image was in its file.
 struct Image::Source {
   OIIO::ImageSpec spec;
   std::string format;             ///< OpenImageIO's name: "png", "openexr", ...
   std::vector<SampleType> types;  ///< one per channel
+  /// The file's pixels, row-major, channels interleaved, each in its own type. Empty if float can
+  /// give them back: 8 and 16 bit integers, half and float can.
   std::vector<std::byte> native;
 };
 
@@ -41,31 +38,5 @@ void to_float(const std::byte* native, const std::vector<SampleType>& types, std
 /// NaN becomes 0.
 void from_float(const float* values, const std::vector<SampleType>& types, std::size_t pixels,
                 std::byte* native);
-
-/// An image file opened for reading, its header checked against the limits.
-class ImageReader {
- public:
-  /// \throw as read_image
-  explicit ImageReader(const std::filesystem::path& path);
-  ~ImageReader();
-
-  const OIIO::ImageSpec& spec() const { return spec_; }
-  const std::string& format() const { return format_; }
-  const std::vector<SampleType>& types() const { return types_; }
-
-  /// Hand over all rows from the top, some at a time: native pixels, first row, number of rows.
-  /// \throw InputError if the file ends early or is damaged
-  void read(const std::function<void(std::span<const std::byte>, int, int)>& take);
-
- private:
-  std::filesystem::path path_;
-  std::unique_ptr<OIIO::ImageInput> input_;
-  OIIO::ImageSpec spec_;
-  std::string format_;
-  std::vector<SampleType> types_;
-};
-
-/// Rows to read or write at a time: whole rows of tiles.
-int rows_at_a_time(const OIIO::ImageSpec& spec);
 
 }  // namespace onmesh

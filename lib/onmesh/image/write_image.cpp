@@ -9,10 +9,13 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <random>
 
 #include "onmesh/base/error.h"
 #include "onmesh/image/file_format.h"
+#include "onmesh/image/image_io.h"
+#include "onmesh/image/image_reader.h"
 #include "onmesh/image/native_pixels.h"
 
 namespace onmesh {
@@ -50,6 +53,21 @@ std::vector<std::byte> native_rows(const Image& image, const std::vector<SampleT
   return native;
 }
 
+/// Replace what a file holds; returns 0 or the error number.
+int overwrite(const fs::path& path, const std::vector<unsigned char>& bytes) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+  std::size_t done = 0;
+  int error = file < 0 ? errno : 0;
+  while (error == 0 && done < bytes.size()) {
+    const ssize_t written = ::write(file, bytes.data() + done, bytes.size() - done);
+    if (written < 0 && errno != EINTR) error = errno;
+    if (written > 0) done += std::size_t(written);
+  }
+  if (file >= 0 && ::close(file) != 0 && error == 0) error = errno;
+  return error;
+}
+
+/// Write the image to the temporary file, which is there already.
 void encode(const fs::path& temporary, const fs::path& path, const ImageFormat& format,
             const Image& image, const std::vector<SampleType>& types) {
   const auto fail = [&](const std::string& why) {
@@ -80,17 +98,7 @@ void encode(const fs::path& temporary, const fs::path& path, const ImageFormat& 
   }
   if (!output->close()) library_error();
   if (!format.in_memory) return;
-  const auto& bytes = memory.buffer();
-  const int file = ::open(temporary.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
-  std::size_t done = 0;
-  int error = file < 0 ? errno : 0;
-  while (error == 0 && done < bytes.size()) {
-    const ssize_t written = ::write(file, bytes.data() + done, bytes.size() - done);
-    if (written < 0 && errno != EINTR) error = errno;
-    if (written > 0) done += std::size_t(written);
-  }
-  if (file >= 0 && ::close(file) != 0 && error == 0) error = errno;
-  if (error != 0) fail(std::strerror(error));
+  if (const int error = overwrite(temporary, memory.buffer())) fail(std::strerror(error));
 }
 
 /// Read the file back: writers report success on a full disk.
@@ -194,18 +202,24 @@ const char* type_words(SampleType type) {
   }
 }
 
-void warn_of_losses(const fs::path& path, const ImageFormat& format, const Image& image,
-                    const ImageWriteOptions& options, const std::vector<SampleType>& types,
-                    std::vector<std::string>& warnings) {
-  if (image.source && options.bits == 0 && int(image.source->types.size()) == image.channels) {
-    for (std::size_t c = 0; c < types.size(); ++c) {
-      const SampleType was = options.force_float ? TypeDesc::FLOAT : image.source->types[c];
-      if (holds(types[c], was)) continue;
-      warnings.push_back(path.string() + ": " + type_words(was) + " are written as " +
-                         type_words(types[c]) + ", the format holds no more");
-      break;
-    }
+using Warn = std::function<void(const std::string&)>;
+
+/// Warn where the file's types hold less than the source's (or than the floats that are asked for).
+void warn_of_types(const Image& image, const ImageWriteOptions& options,
+                   const std::vector<SampleType>& types, const Warn& warn) {
+  if (!image.source || options.bits != 0 || int(image.source->types.size()) != image.channels)
+    return;
+  for (std::size_t c = 0; c < types.size(); ++c) {
+    const SampleType was = options.force_float ? TypeDesc::FLOAT : image.source->types[c];
+    if (holds(types[c], was)) continue;
+    warn(std::string(type_words(was)) + " are written as " + type_words(types[c]) +
+         ", the format holds no more");
+    return;
   }
+}
+
+/// Warn of values that integers do not hold.
+void warn_of_values(const Image& image, const std::vector<SampleType>& types, const Warn& warn) {
   std::uint64_t clamped = 0, not_numbers = 0;
   for (std::size_t c = 0; c < types.size(); ++c) {
     if (TypeDesc(types[c]).is_floating_point()) continue;
@@ -219,24 +233,24 @@ void warn_of_losses(const fs::path& path, const ImageFormat& format, const Image
     }
   }
   if (clamped > 0)
-    warnings.push_back(path.string() + ": " + std::to_string(clamped) +
-                       " values outside [0,1] are clamped, the format holds integers");
+    warn(std::to_string(clamped) + " values outside [0,1] are clamped, the format holds integers");
   if (not_numbers > 0)
-    warnings.push_back(path.string() + ": " + std::to_string(not_numbers) +
-                       " values that are not numbers are written as 0");
+    warn(std::to_string(not_numbers) + " values that are not numbers are written as 0");
+}
+
+/// Warn where the source's alpha or colour profile means something else in the format.
+void warn_of_meaning(const ImageFormat& format, const Image& image, const Warn& warn) {
   if (!image.source) return;
   const Image::Source& source = *image.source;
   const bool exr = format.name == "openexr", tiff = format.name == "tiff";
   if (image.alpha_channel >= 0) {
     const bool apart = source.spec.get_int_attribute("oiio:UnassociatedAlpha") != 0;
     const bool multiplied = !apart && (source.format == "openexr" || source.format == "tiff");
-    if (exr && apart)
-      warnings.push_back(path.string() + ": colours are not multiplied with alpha as EXR wants it");
-    if (!exr && !tiff && multiplied)
-      warnings.push_back(path.string() + ": colours stay multiplied with alpha as in the source");
+    if (exr && apart) warn("colours are not multiplied with alpha as EXR wants it");
+    if (!exr && !tiff && multiplied) warn("colours stay multiplied with alpha as in the source");
   }
   if (exr && source.spec.find_attribute("ICCProfile") != nullptr)
-    warnings.push_back(path.string() + ": EXR cannot hold the source's ICC profile");
+    warn("EXR cannot hold the source's ICC profile");
 }
 
 }  // namespace
@@ -281,7 +295,13 @@ void write_image(const fs::path& path, const Image& image, const ImageWriteOptio
     throw FileError(path.string() + ": not enough memory to write the image");
   }
   temporary.rename_to(target, path);
-  if (warnings != nullptr) warn_of_losses(path, format, image, options, types, *warnings);
+  if (warnings == nullptr) return;
+  const auto warn = [&](const std::string& what) {
+    warnings->push_back(path.string() + ": " + what);
+  };
+  warn_of_types(image, options, types, warn);
+  warn_of_values(image, types, warn);
+  warn_of_meaning(format, image, warn);
 }
 
 }  // namespace onmesh

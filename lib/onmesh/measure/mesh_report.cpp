@@ -5,34 +5,19 @@
 #include <cstdio>
 #include <limits>
 
+#include "onmesh/atlas/charts.h"
+#include "onmesh/atlas/face_textures.h"
 #include "onmesh/atlas/uv_overlap.h"
+#include "onmesh/base/disjoint_sets.h"
+#include "onmesh/base/text.h"
+#include "onmesh/mesh/coincident_faces.h"
+#include "onmesh/mesh/components.h"
 #include "onmesh/mesh/edge_table.h"
+#include "onmesh/mesh/vertex_fans.h"
+#include "onmesh/mesh/winding.h"
 
 namespace onmesh {
 namespace {
-
-/// Number the sets of `roots` in the order of their first face; kNone stays.
-std::vector<Index> number_roots(std::vector<Index> roots, Index& count) {
-  Index highest = 0;
-  for (const Index root : roots) {
-    if (root != kNone) highest = std::max(highest, root);
-  }
-  std::vector<Index> number(std::size_t{highest} + 1, kNone);
-  count = 0;
-  for (Index& root : roots) {
-    if (root == kNone) continue;
-    if (number[root] == kNone) number[root] = count++;
-    root = number[root];
-  }
-  return roots;
-}
-
-/// The UV index that a face has at a vertex.
-Index uv_at(const TriangleMesh& mesh, Index face, Index vertex) {
-  const auto& f = mesh.faces[face];
-  const std::size_t k = f[0] == vertex ? 0 : f[1] == vertex ? 1 : 2;
-  return mesh.face_uvs[face][k];
-}
 
 void count_edges(const EdgeTable& edges, MeshReport& r) {
   for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -43,45 +28,17 @@ void count_edges(const EdgeTable& edges, MeshReport& r) {
   }
 }
 
-void find_components(const TriangleMesh& mesh, MeshReport& r) {
-  DisjointSets vertices(mesh.positions.size());
-  for (const auto& f : mesh.faces) {
-    vertices.join(f[0], f[1]);
-    vertices.join(f[0], f[2]);
+/// The charts as the texel map has them, whatever the size of the textures.
+void count_charts(const TriangleMesh& mesh, MeshReport& r) {
+  std::vector<bool> used(mesh.faces.size()), holds_texels(mesh.faces.size());
+  for (Index f = 0; f < used.size(); ++f) {
+    used[f] = mesh.has_uvs(f) && !has_repeated_vertex(mesh.faces[f]);
+    holds_texels[f] = used[f] && mesh.face_area(f) > 0 && mesh.uv_area(f) != 0;
   }
-  std::vector<Index> roots;
-  roots.reserve(mesh.faces.size());
-  for (const auto& f : mesh.faces) roots.push_back(vertices.find(f[0]));
-  r.component_of_face = number_roots(std::move(roots), r.components);
-}
-
-void find_charts(const TriangleMesh& mesh, const EdgeTable& edges, MeshReport& r) {
-  struct Side {
-    std::array<Index, 2> uvs;
-    Index face;
-  };
-  DisjointSets charts(mesh.faces.size());
-  std::vector<Side> around;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto [a, b] = edges.vertices(e);
-    around.clear();
-    for (const EdgeSide& s : edges.sides(e)) {
-      if (!mesh.has_uvs(s.face)) continue;
-      around.push_back({{uv_at(mesh, s.face, a), uv_at(mesh, s.face, b)}, s.face});
-    }
-    if (around.size() > 2) {
-      std::sort(around.begin(), around.end(),
-                [](const Side& x, const Side& y) { return x.uvs < y.uvs; });
-    }
-    for (std::size_t i = 1; i < around.size(); ++i) {
-      if (around[i].uvs == around[i - 1].uvs) charts.join(around[i].face, around[i - 1].face);
-    }
-  }
-  std::vector<Index> roots(mesh.faces.size(), kNone);
-  for (Index f = 0; f < mesh.faces.size(); ++f) {
-    if (mesh.has_uvs(f) && !has_repeated_vertex(mesh.faces[f])) roots[f] = charts.find(f);
-  }
-  r.chart_of_face = number_roots(std::move(roots), r.charts);
+  Charts charts =
+      find_charts(UvNeighbours(mesh, used), used, holds_texels, number_textures(mesh).of_face);
+  r.charts = charts.count;
+  r.chart_of_face = std::move(charts.chart_of_face);
 }
 
 /// Boundary edges that meet in the same fan follow each other on a loop; at a bow tie several loops
@@ -100,10 +57,21 @@ Index count_boundary_loops(const TriangleMesh& mesh, const EdgeTable& edges, Dis
   return static_cast<Index>(std::unique(corners.begin(), corners.end()) - corners.begin());
 }
 
+struct Density {
+  double value, area;
+};
+
+/// The density that this share of the densities' area does not exceed.
+double quantile(const std::vector<Density>& ascending, double total_area, double share) {
+  double sum = 0;
+  for (const Density& d : ascending) {
+    sum += d.area;
+    if (sum >= share * total_area) return d.value;
+  }
+  return ascending.back().value;
+}
+
 void measure_uvs(const TriangleMesh& mesh, MeshReport& r) {
-  struct Density {
-    double value, area;
-  };
   std::vector<Density> densities;
   double total = 0;
   bool first = true;
@@ -129,20 +97,8 @@ void measure_uvs(const TriangleMesh& mesh, MeshReport& r) {
   if (densities.empty()) return;
   std::sort(densities.begin(), densities.end(),
             [](const Density& a, const Density& b) { return a.value < b.value; });
-  const auto quantile = [&](double share) {
-    double sum = 0;
-    for (const Density& d : densities) {
-      sum += d.area;
-      if (sum >= share * total) return d.value;
-    }
-    return densities.back().value;
-  };
-  r.density_min = quantile(0.01);
-  r.density_max = quantile(0.99);
-}
-
-std::string count_of(Index count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
+  r.density_min = quantile(densities, total, 0.01);
+  r.density_max = quantile(densities, total, 0.99);
 }
 
 template <class... Values>
@@ -152,43 +108,18 @@ std::string format(const char* pattern, Values... values) {
   return buffer.data();
 }
 
-}  // namespace
+using Lines = std::vector<std::string>;
 
-MeshReport classify(const TriangleMesh& welded) {
-  MeshReport r;
-  r.vertices = static_cast<Index>(welded.positions.size());
-  r.faces = static_cast<Index>(welded.faces.size());
-  r.diagonal = welded.diagonal();
-  for (Index f = 0; f < r.faces; ++f) {
-    r.surface_area += welded.face_area(f);
-    if (welded.is_degenerate(f)) ++r.degenerate_faces;
-  }
-  for (const Index first : earlier_copies(welded)) r.duplicate_faces += first != kNone;
-  const EdgeTable edges(welded);
-  count_edges(edges, r);
-  find_components(welded, r);
-  find_charts(welded, edges, r);
-  DisjointSets fans = join_fans(welded, edges);
-  r.boundary_loops = count_boundary_loops(welded, edges, fans);
-  for (const Index count : count_fans(welded, fans)) r.nonmanifold_vertices += count > 1;
-  r.orientable = consistent_winding(welded, edges).conflict == kNone;
-  measure_uvs(welded, r);
-  const UvOverlap overlap = estimate_overlap(welded);
-  r.overlap_share = overlap.share;
-  r.max_overlap = overlap.deepest;
-  return r;
-}
-
-std::vector<std::string> advice(const MeshReport& r) {
-  std::vector<std::string> lines;
+/// Advice on how faces are joined.
+void advise_on_surface(const MeshReport& r, Lines& lines) {
   if (r.nonmanifold_edges > 0) {
-    lines.push_back(count_of(r.nonmanifold_edges, "edge has", "edges have") +
+    lines.push_back(count_text(r.nonmanifold_edges, "edge has", "edges have") +
                     " three or more faces: the filter goes on into each of them; split "
                     " or remove the extra faces if they are not meant to be there");
   }
   if (r.nonmanifold_vertices > 0) {
     lines.push_back(
-        count_of(r.nonmanifold_vertices, "vertex joins", "vertices join") +
+        count_text(r.nonmanifold_vertices, "vertex joins", "vertices join") +
         " parts of the surface that share no edge there: the filter goes on through it; give each "
         "part a vertex of its own if they should be apart");
   }
@@ -198,39 +129,38 @@ std::vector<std::string> advice(const MeshReport& r) {
         "but normals cannot agree on it; cut it open along a line of edges if that is not meant");
   } else if (r.inconsistent_edges > 0) {
     lines.push_back(
-        count_of(r.inconsistent_edges, "edge has", "edges have") +
+        count_text(r.inconsistent_edges, "edge has", "edges have") +
         " faces of opposite winding: turn over the smaller part (filtering does so by itself)");
   }
-  if (r.degenerate_faces > 0) {
-    lines.push_back(
-        count_of(r.degenerate_faces, "face has", "faces have") +
-        " no area and cannot carry texture: remove them if they are not meant to be there");
-  }
-  if (r.duplicate_faces > 0) {
-    lines.push_back(
-        count_of(r.duplicate_faces, "face repeats", "faces repeat") +
-        " an earlier one, like the back of two-sided cloth: those with UVs of their own are "
-        "filtered as sheets of their own, the others are left out");
-  }
+}
+
+/// Advice on single faces.
+void advise_on_faces(const MeshReport& r, Lines& lines) {
+  const auto add = [&](Index count, const char* one, const char* many, const char* what) {
+    if (count > 0) lines.push_back(count_text(count, one, many) + what);
+  };
+  add(r.degenerate_faces, "face has", "faces have",
+      " no area and cannot carry texture: remove them if they are not meant to be there");
+  add(r.duplicate_faces, "face repeats", "faces repeat",
+      " an earlier one, like the back of two-sided cloth: those with UVs of their own are "
+      "filtered as sheets of their own, the others are left out");
   const Index textured = r.faces - r.faces_without_uvs;
   if (textured == 0) {
-    lines.push_back("no face has UVs: unwrap the mesh before filtering a texture on it");
-    return lines;
+    lines.emplace_back("no face has UVs: unwrap the mesh before filtering a texture on it");
+    return;
   }
-  if (r.faces_without_uvs > 0) {
-    lines.push_back(count_of(r.faces_without_uvs, "face has", "faces have") +
-                    " no UVs: they are part of the surface but carry no texture");
-  }
-  if (r.degenerate_uvs > 0) {
-    lines.push_back(
-        count_of(r.degenerate_uvs, "face has", "faces have") +
-        " UVs without area, which give it no texels: unwrap them again if they should be filtered");
-  }
-  if (r.mirrored_faces > 0 && r.mirrored_faces + r.degenerate_uvs < textured) {
-    lines.push_back(count_of(r.mirrored_faces, "face has", "faces have") +
-                    " mirrored UVs: harmless for filtering, but check that texts and normal maps "
-                    "are meant to be so");
-  }
+  add(r.faces_without_uvs, "face has", "faces have",
+      " no UVs: they are part of the surface but carry no texture");
+  add(r.degenerate_uvs, "face has", "faces have",
+      " UVs without area, which give it no texels: unwrap them again if they should be filtered");
+  const bool all_mirrored = r.mirrored_faces + r.degenerate_uvs >= textured;
+  add(all_mirrored ? 0 : r.mirrored_faces, "face has", "faces have",
+      " mirrored UVs: harmless for filtering, but check that texts and normal maps are meant to be "
+      "so");
+}
+
+/// Advice on the atlas as a whole.
+void advise_on_atlas(const MeshReport& r, Lines& lines) {
   if (r.overlap_share > 0.001) {
     lines.push_back(format(
         "%.1f %% of the atlas is used more than once (up to %u times): one texel cannot hold two "
@@ -250,6 +180,42 @@ std::vector<std::string> advice(const MeshReport& r) {
         "too few texels for a small sigma",
         r.density_max / r.density_min));
   }
+}
+
+}  // namespace
+
+MeshReport report_mesh(const TriangleMesh& mesh) {
+  MeshReport r;
+  r.vertices = static_cast<Index>(mesh.positions.size());
+  r.faces = static_cast<Index>(mesh.faces.size());
+  r.diagonal = mesh.diagonal();
+  for (Index f = 0; f < r.faces; ++f) {
+    r.surface_area += mesh.face_area(f);
+    if (mesh.is_degenerate(f)) ++r.degenerate_faces;
+  }
+  for (const Index first : earlier_copies(mesh)) r.duplicate_faces += first != kNone;
+  const EdgeTable edges(mesh);
+  count_edges(edges, r);
+  FaceComponents components = connected_components(mesh);
+  r.components = components.count;
+  r.component_of_face = std::move(components.of_face);
+  count_charts(mesh, r);
+  DisjointSets fans = join_fans(mesh, edges);
+  r.boundary_loops = count_boundary_loops(mesh, edges, fans);
+  for (const Index count : count_fans(mesh, fans)) r.nonmanifold_vertices += count > 1;
+  r.orientable = consistent_winding(mesh, edges).conflict == kNone;
+  measure_uvs(mesh, r);
+  const UvOverlap overlap = estimate_overlap(mesh);
+  r.overlap_share = overlap.share;
+  r.max_overlap = overlap.deepest;
+  return r;
+}
+
+std::vector<std::string> advice(const MeshReport& report) {
+  Lines lines;
+  advise_on_surface(report, lines);
+  advise_on_faces(report, lines);
+  if (report.faces_without_uvs < report.faces) advise_on_atlas(report, lines);
   return lines;
 }
 

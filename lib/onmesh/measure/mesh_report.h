@@ -10,9 +10,11 @@ namespace onmesh {
 
 /// Counts over a welded mesh. All faces are those of the mesh given, nothing is repaired.
 struct MeshReport {
-  Index vertices = 0, faces = 0;
-  Index components = 0;  ///< parts that share no vertex
-  Index boundary_edges = 0, boundary_loops = 0;
+  Index vertices = 0;              ///< that the mesh has, used or not
+  Index faces = 0;                 ///< triangles
+  Index components = 0;            ///< parts that share no vertex
+  Index boundary_edges = 0;        ///< edges with one face
+  Index boundary_loops = 0;        ///< closed lines of them
   Index nonmanifold_edges = 0;     ///< edges with three or more faces
   Index nonmanifold_vertices = 0;  ///< vertices whose faces form more than one fan (bow ties)
   Index inconsistent_edges = 0;    ///< edges whose two faces run along them in the same direction
@@ -22,20 +24,24 @@ struct MeshReport {
   Index faces_without_uvs = 0;     ///< some corner has no UV
   Index degenerate_uvs = 0;        ///< UVs present, but the UV triangle has no area
   Index mirrored_faces = 0;        ///< UV triangle runs clockwise
-  Index charts = 0;                ///< components connected over edges with equal UVs on both sides
-  double surface_area = 0, diagonal = 0;
-  /// Texel density: square root of UV area over surface area, in 1 / mesh unit; the 1 % and 99 %
-  /// quantiles by surface area over faces that have both areas (0 if there are none). A texture W
-  /// texels wide has W times as many texels per mesh unit.
-  double density_min = 0, density_max = 0;
+  /// Faces connected over edges with equal UVs on all sides, as make_texel_map() counts them for
+  /// each texture: parts without area or UV area, which hold no texels, do not count.
+  Index charts = 0;
+  double surface_area = 0;  ///< mesh units squared
+  double diagonal = 0;      ///< of the bounding box, mesh units
+  /// Texel density: square root of UV area over surface area, in 1 / mesh unit; the 1 % quantile by
+  /// surface area over faces that have both areas (0 if there are none). A texture W texels wide
+  /// has W times as many texels per mesh unit.
+  double density_min = 0;
+  double density_max = 0;  ///< the 99 % quantile
   /// Share of the covered UV area that more than one face of the same texture claims, after
-  /// wrapping into one tile, and how many claim the same spot at most. Estimated: see
-  /// estimate_overlap().
+  /// wrapping into one tile. Estimated on a raster.
   double overlap_share = 0;
-  Index max_overlap = 0;
-  Vec2 uv_min = Vec2::Zero(), uv_max = Vec2::Zero();
-  std::vector<Index> component_of_face;
-  std::vector<Index> chart_of_face;  ///< kNone where UVs are missing or a vertex is repeated
+  Index max_overlap = 0;                 ///< how many faces claim the same spot at most
+  Vec2 uv_min = Vec2::Zero();            ///< the lowest u and v of all faces' corners
+  Vec2 uv_max = Vec2::Zero();            ///< the highest
+  std::vector<Index> component_of_face;  ///< per face, numbered by their first faces
+  std::vector<Index> chart_of_face;      ///< kNone where a face holds no texels
 
   /// No non-manifold edge or vertex, orientable. (clean() may still mend what this counts.)
   bool manifold() const {
@@ -43,7 +49,9 @@ struct MeshReport {
   }
 };
 
-MeshReport classify(const TriangleMesh& welded);
+/// Examine a mesh.
+/// \pre mesh is welded
+MeshReport report_mesh(const TriangleMesh& mesh);
 
 /// The report's findings that a user should act on, one sentence each with what to do.
 std::vector<std::string> advice(const MeshReport& report);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "onmesh/base/error.h"
+#include "onmesh/base/triangle.h"
 
 namespace onmesh {
 
@@ -22,10 +23,6 @@ using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::c
 using AabbTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 Kernel::Point_3 to_cgal(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
-
-Vec3 combine(const std::array<Vec3, 3>& t, const Vec3& b) {
-  return b[0] * t[0] + b[1] * t[1] + b[2] * t[2];
-}
 
 double squared_distance(const CGAL::Bbox_3& box, const Vec3& p) {
   double sum = 0;
@@ -88,7 +85,7 @@ class ClosestFaces {
     c.face = tree_.faces[i];
     if (labels_ != nullptr && (*labels_)[c.face] == label_) return;
     c.barycentric = closest_barycentric(tree_.corners[i], point_);
-    c.squared_distance = (combine(tree_.corners[i], c.barycentric) - point_).squaredNorm();
+    c.squared_distance = (interpolate(tree_.corners[i], c.barycentric) - point_).squaredNorm();
     if (c.squared_distance > limit_) return;
     if (c.squared_distance < best_) {
       best_ = c.squared_distance;
@@ -153,44 +150,6 @@ std::optional<SurfacePoint> ClosestPoint::closest_other(const Vec3& point, doubl
   ClosestFaces<Tree> search(*tree_, point, limit, labels, label);
   tree_->aabb.traversal_with_priority(to_cgal(point), search);
   return search.result();
-}
-
-Vec3 closest_barycentric(const std::array<Vec3, 3>& triangle, const Vec3& p) {
-  // The foot of the perpendicular if it falls inside, else the best point of the three edges. All
-  // are compared by their actual distance, which stays right for slivers, where "inside" is noise.
-  Vec3 best = Vec3::UnitX();
-  double best_distance = std::numeric_limits<double>::infinity();
-  const auto offer = [&](const Vec3& b) {
-    const double d = (combine(triangle, b) - p).squaredNorm();
-    if (d < best_distance) {
-      best_distance = d;
-      best = b;
-    }
-  };
-  const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
-  const double squared = normal.squaredNorm();
-  if (squared > 0) {
-    Vec3 b;
-    for (int k = 0; k < 3; ++k) {
-      const Vec3& from = triangle[std::size_t(k + 1) % 3];
-      b[k] = (triangle[std::size_t(k + 2) % 3] - from).cross(p - from).dot(normal) / squared;
-    }
-    if (b.minCoeff() >= 0) {
-      b /= b.sum();
-      offer(b);
-    }
-  }
-  for (int k = 0; k < 3; ++k) {
-    const int j = (k + 1) % 3;
-    const Vec3 edge = triangle[std::size_t(j)] - triangle[std::size_t(k)];
-    const double length = edge.squaredNorm();
-    const double t = length > 0 ? (p - triangle[std::size_t(k)]).dot(edge) / length : 0;
-    Vec3 b = Vec3::Zero();
-    b[j] = std::clamp(t, 0.0, 1.0);
-    b[k] = 1 - b[j];
-    offer(b);
-  }
-  return best;
 }
 
 }  // namespace onmesh

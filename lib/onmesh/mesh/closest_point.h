@@ -1,4 +1,4 @@
-// Closest points on a mesh (CGAL AABB tree).
+// The point of a mesh that is closest to a point in space.
 #pragma once
 
 #include <memory>
@@ -9,10 +9,12 @@
 
 namespace onmesh {
 
-/// Precomputes a tree over the mesh's faces; queries are const and may run in parallel.
+/// Precomputes a tree of bounding boxes over the mesh's faces (CGAL's AABB tree); queries are const
+/// and may run in parallel. The mesh may go.
 class ClosestPoint {
  public:
-  /// \pre the mesh has a face with area; faces without area are left out
+  /// Faces without area (1e-14 of their longest edge's square) are left out.
+  /// \throw InputError if no face is left
   explicit ClosestPoint(const TriangleMesh& mesh);
   ~ClosestPoint();
   ClosestPoint(ClosestPoint&&) noexcept;
@@ -22,6 +24,7 @@ class ClosestPoint {
   SurfacePoint closest(const Vec3& point) const;
 
   /// The same among the faces whose label is not `label`, if any of them is within `limit`.
+  /// \param limit in mesh units
   /// \param labels one per face of the mesh
   std::optional<SurfacePoint> closest_other(const Vec3& point, double limit,
                                             const std::vector<Index>& labels, Index label) const;
@@ -30,8 +33,5 @@ class ClosestPoint {
   struct Tree;
   std::unique_ptr<Tree> tree_;
 };
-
-/// Barycentric coordinates of the point of the triangle closest to p.
-Vec3 closest_barycentric(const std::array<Vec3, 3>& triangle, const Vec3& p);
 
 }  // namespace onmesh

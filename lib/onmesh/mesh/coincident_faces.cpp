@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "onmesh/base/disjoint_sets.h"
 #include "onmesh/mesh/edge_table.h"
 
 namespace onmesh {
@@ -37,10 +38,11 @@ std::vector<EdgeSide> sides_of(std::span<const EdgeSide> all, const std::vector<
   return sides;
 }
 
-/// Sheets as sets of faces, and their fans as sets of corners.
-class Sheets {
+/// Takes the layers of stacks apart. A stack is the faces on the same three vertices, a sheet the
+/// layers of several stacks that go on into each other, a region the stacks that are joined so.
+class LayerSeparation {
  public:
-  explicit Sheets(TriangleMesh& mesh)
+  explicit LayerSeparation(TriangleMesh& mesh)
       : mesh_(mesh),
         edges_(mesh),
         stack_of_(mesh.faces.size(), kNone),
@@ -53,8 +55,9 @@ class Sheets {
     }
   }
 
-  Index separate() {
-    join();
+  /// \return number of faces that were given copies of vertices
+  Index run() {
+    join_sheets();
     choose_keepers();
     return give_copies();
   }
@@ -62,7 +65,7 @@ class Sheets {
  private:
   bool stacked(Index face) const { return stack_of_[face] != kNone; }
 
-  void join() {
+  void join_sheets() {
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       std::vector<Index> stacks;
       for (const EdgeSide& s : edges_.sides(e)) {
@@ -119,9 +122,8 @@ class Sheets {
     }
   }
 
-  // A fan keeps its vertex if its sheet does; but the two-sided cover of a Moebius strip is one
-  // sheet that lies on itself: there the first fan of every vertex keeps it.
-  Index give_copies() {
+  // Per sheet: it has two layers in one stack.
+  std::vector<bool> find_sheets_on_themselves() {
     std::vector<bool> on_itself(mesh_.faces.size(), false);
     std::vector<std::array<Index, 2>> layers;
     for (Index f = 0; f < mesh_.faces.size(); ++f) {
@@ -131,6 +133,13 @@ class Sheets {
     for (std::size_t i = 1; i < layers.size(); ++i) {
       if (layers[i] == layers[i - 1]) on_itself[layers[i][1]] = true;
     }
+    return on_itself;
+  }
+
+  // A fan keeps its vertex if its sheet does; but the two-sided cover of a Moebius strip is one
+  // sheet that lies on itself: there the first fan of every vertex keeps it.
+  Index give_copies() {
+    const std::vector<bool> on_itself = find_sheets_on_themselves();
     std::vector<Index> keeping_fan(mesh_.positions.size(), kNone);
     std::vector<Index> copy_of(3 * mesh_.faces.size(), kNone);  // per fan
     Index moved = 0;
@@ -163,12 +172,38 @@ class Sheets {
   TriangleMesh& mesh_;
   const EdgeTable edges_;
   std::vector<Index> stack_of_;  // per face: the first one on its vertices; kNone if it is alone
-  DisjointSets sheets_, regions_, fans_;
-  std::vector<Index> keeper_;  // per region
+  DisjointSets sheets_;          // of faces
+  DisjointSets regions_;         // of stacks, by their first faces
+  DisjointSets fans_;            // of corners
+  std::vector<Index> keeper_;    // per region
 };
 
 }  // namespace
 
-Index separate_sheets(TriangleMesh& mesh) { return Sheets(mesh).separate(); }
+std::vector<Index> earlier_copies(const TriangleMesh& mesh) {
+  struct Key {
+    std::array<Index, 3> vertices;
+    Index face;
+  };
+  std::vector<Key> keys;
+  keys.reserve(mesh.faces.size());
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    auto v = mesh.faces[f];
+    std::sort(v.begin(), v.end());
+    keys.push_back({v, f});
+  }
+  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+    return a.vertices != b.vertices ? a.vertices < b.vertices : a.face < b.face;
+  });
+  std::vector<Index> earlier(mesh.faces.size(), kNone);
+  for (std::size_t i = 1; i < keys.size(); ++i) {
+    if (keys[i].vertices != keys[i - 1].vertices) continue;
+    const Index first = earlier[keys[i - 1].face];
+    earlier[keys[i].face] = first == kNone ? keys[i - 1].face : first;
+  }
+  return earlier;
+}
+
+Index separate_coincident_faces(TriangleMesh& mesh) { return LayerSeparation(mesh).run(); }
 
 }  // namespace onmesh

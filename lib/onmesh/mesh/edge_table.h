@@ -39,59 +39,10 @@ class EdgeTable {
   std::vector<EdgeSide> sides_;
 };
 
-inline bool has_repeated_vertex(const std::array<Index, 3>& face) {
-  return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
-}
-
-/// For every face the first one on the same three vertices, whichever way it runs; kNone if that is
-/// the face itself.
-std::vector<Index> earlier_copies(const TriangleMesh& mesh);
-
-/// Which faces to turn over so that the two faces of every edge run along it in opposite
-/// directions.
-struct Winding {
-  std::vector<bool> flip;
-  Index conflict = kNone;  ///< a face of a component that cannot be wound; kNone = all can
-};
-
-/// The smaller area of every component (over edges with two faces) is what is turned over; nothing
-/// of a component that cannot be wound.
-Winding consistent_winding(const TriangleMesh& mesh, const EdgeTable& edges);
-
-/// Disjoint sets; the representative of a set is its lowest member.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t size) : parent_(size) {
-    for (std::size_t i = 0; i < size; ++i) parent_[i] = static_cast<Index>(i);
-  }
-  Index find(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(Index a, Index b) {
-    a = find(a);
-    b = find(b);
-    if (a < b) {
-      parent_[b] = a;
-    } else {
-      parent_[a] = b;
-    }
-  }
-
- private:
-  std::vector<Index> parent_;
-};
-
 /// The corner (3 * face + 0..2) of the side's face that lies on the given end of its edge.
 inline Index corner_at(const TriangleMesh& mesh, const EdgeSide& side, Index vertex) {
   const bool starts = mesh.faces[side.face][side.corner] == vertex;
   return 3 * side.face + (starts ? side.corner : (side.corner + 1U) % 3);
 }
-
-/// The fans of every vertex, as sets of corners: faces at a vertex that are joined by edges there.
-DisjointSets join_fans(const TriangleMesh& mesh, const EdgeTable& edges);
-
-/// The number of fans of every vertex; more than one makes a bow tie.
-std::vector<Index> count_fans(const TriangleMesh& mesh, DisjointSets& fans);
 
 }  // namespace onmesh

@@ -27,14 +27,15 @@ struct PolygonMesh {
   }
 };
 
+/// UVs that are not finite count as missing: corners have none then, and the UVs become zero. One
+/// bad UV must not cost the whole mesh.
+/// \param warnings if given, receives a line that names `file` and how many there were
+void drop_missing_uvs(PolygonMesh& polygons, const std::string& file,
+                      std::vector<std::string>* warnings);
+
 /// Triangles in the order of the polygons; corners keep their UVs.
 /// \pre every polygon has at least three corners, all within the positions and UVs
 /// \throw InputError naming `file` if there are no faces or more elements than an Index can count
 TriangleMesh triangulate(PolygonMesh polygons, const std::string& file);
-
-/// The path of a texture as a material file writes it: relative to `folder`, with either kind of
-/// slash, perhaps an absolute path of another machine (then the file's bare name is tried). The
-/// first that exists, else the plain reading.
-std::string find_texture(std::string name, const std::string& folder);
 
 }  // namespace onmesh

@@ -1,13 +1,17 @@
-// Wavefront OBJ with its material files.
+#include "onmesh/mesh_io/read_obj.h"
+
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <string_view>
 #include <system_error>
 #include <unordered_map>
+#include <utility>
 
 #include "onmesh/base/error.h"
 #include "onmesh/base/file_io.h"
 #include "onmesh/base/text_scan.h"
-#include "onmesh/mesh_io/mesh_io.h"
+#include "onmesh/mesh_io/find_texture.h"
 #include "onmesh/mesh_io/polygon_mesh.h"
 
 namespace onmesh {
@@ -81,7 +85,7 @@ class ObjReader {
     }
     check_forward_references();
     read_libraries();
-    drop_missing_uvs();
+    drop_missing_uvs(out_, path_.string(), warnings_);
     return triangulate(std::move(out_), path_.string());
   }
 
@@ -102,7 +106,6 @@ class ObjReader {
     Vec2 uv(scan_.number("texture coordinate"), 0);
     if (scan_.skip_blank()) uv.y() = scan_.number("texture coordinate");
     if (scan_.skip_blank()) scan_.number("texture coordinate");
-    if (!uv.allFinite()) ++missing_uvs_;
     out_.mesh.uvs.push_back(uv);
   }
 
@@ -170,18 +173,6 @@ class ObjReader {
     }
   }
 
-  /// One bad UV must not cost the whole mesh: its corners count as having none.
-  void drop_missing_uvs() {
-    if (missing_uvs_ == 0) return;
-    for (Index& uv : out_.corner_uvs) {
-      if (uv != kNone && !out_.mesh.uvs[uv].allFinite()) uv = kNone;
-    }
-    for (Vec2& uv : out_.mesh.uvs) {
-      if (!uv.allFinite()) uv.setZero();
-    }
-    warn(std::to_string(missing_uvs_) + " texture coordinates are not finite and count as missing");
-  }
-
   void read_libraries() {
     const fs::path folder = path_.parent_path();
     const auto locate = [&](std::string name) {
@@ -218,8 +209,7 @@ class ObjReader {
         const auto used = material_by_name_.find(std::string(scan.rest_of_line()));
         current = used == material_by_name_.end() ? nullptr : &out_.mesh.materials[used->second];
       } else if (keyword == "map_kd" && current && current->texture.empty()) {
-        current->texture =
-            find_texture(std::string(texture_name(scan.rest_of_line())), folder.string());
+        current->texture = find_texture(std::string(texture_name(scan.rest_of_line())), folder);
       }
     }
   }
@@ -238,7 +228,6 @@ class ObjReader {
   std::vector<std::string> libraries_;
   std::unordered_map<std::string, Index> material_by_name_;
   Index material_ = kNone;
-  std::size_t missing_uvs_ = 0;
 };
 
 }  // namespace

@@ -1,15 +1,17 @@
-// OFF, with the prefixes ST (texture coordinates), C (colours) and N (normals).
-#include <limits>
+#include "onmesh/mesh_io/read_off.h"
 
-#include "onmesh/base/error.h"
+#include <charconv>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
 #include "onmesh/base/text_scan.h"
-#include "onmesh/mesh_io/mesh_io.h"
 #include "onmesh/mesh_io/polygon_mesh.h"
 
 namespace onmesh {
 namespace {
 
-std::size_t count(std::string_view token, const char* what, const TextScan& scan) {
+std::size_t read_count(std::string_view token, const char* what, const TextScan& scan) {
   std::size_t value = 0;
   const char* const end = token.data() + token.size();
   const auto [last, error] = std::from_chars(token.data(), end, value);
@@ -27,73 +29,85 @@ void next_filled_line(TextScan& scan) {
   }
 }
 
-}  // namespace
+/// What the first lines say.
+struct OffHeader {
+  bool has_uvs = false, has_normals = false;
+  std::size_t vertices = 0, faces = 0;
+};
 
-TriangleMesh read_off(const std::filesystem::path& path, const std::string& content,
-                      std::vector<std::string>* warnings) {
-  TextScan scan(content, path.string(), Syntax::comments);
+OffHeader read_header(TextScan& scan) {
+  OffHeader header;
   std::string_view magic = scan.token_anywhere();
   const std::string_view first = magic;
-  bool has_uvs = false, has_normals = false;
-  if (magic.starts_with("ST")) has_uvs = true, magic.remove_prefix(2);
+  if (magic.starts_with("ST")) header.has_uvs = true, magic.remove_prefix(2);
   if (magic.starts_with('C')) magic.remove_prefix(1);
-  if (magic.starts_with('N')) has_normals = true, magic.remove_prefix(1);
+  if (magic.starts_with('N')) header.has_normals = true, magic.remove_prefix(1);
   if (magic.starts_with('4') || magic.starts_with('n'))
     scan.fail("only three-dimensional OFF files are read");
   if (!magic.starts_with("OFF")) scan.fail("is not an OFF file: " + quote(first));
   magic.remove_prefix(3);
   // Some files have no blank between the keyword and the first count.
-  std::string_view token = magic.empty() ? scan.token_anywhere() : magic;
+  const std::string_view token = magic.empty() ? scan.token_anywhere() : magic;
   if (token == "BINARY") scan.fail("binary OFF files are not read");
-  const std::size_t vertices = count(token, "number of vertices", scan);
-  const std::size_t faces = count(scan.token_anywhere(), "number of faces", scan);
+  header.vertices = read_count(token, "number of vertices", scan);
+  header.faces = read_count(scan.token_anywhere(), "number of faces", scan);
   scan.next_line();  // the number of edges means nothing
 
   // At least "0 0 0" and "3 0 0 0" with a line end each, so that no count makes us allocate.
-  if (vertices > scan.remaining() / 6 + 1 || faces > scan.remaining() / 8 + 1) {
-    scan.fail("promises " + std::to_string(vertices) + " vertices and " + std::to_string(faces) +
-              " faces, the file is too short for them");
+  if (header.vertices > scan.remaining() / 6 + 1 || header.faces > scan.remaining() / 8 + 1) {
+    scan.fail("promises " + std::to_string(header.vertices) + " vertices and " +
+              std::to_string(header.faces) + " faces, the file is too short for them");
   }
-  PolygonMesh out;
-  out.mesh.positions.reserve(vertices);
-  std::size_t missing_uvs = 0;
+  return header;
+}
+
+void read_vertices(TextScan& scan, const OffHeader& header, PolygonMesh& out) {
+  out.mesh.positions.reserve(header.vertices);
   std::vector<double> rest;
-  for (std::size_t i = 0; i < vertices; ++i, scan.next_line()) {
+  for (std::size_t i = 0; i < header.vertices; ++i, scan.next_line()) {
     next_filled_line(scan);
     Vec3 p;
     for (int k = 0; k < 3; ++k) p[k] = scan.finite("coordinate");
     out.mesh.positions.push_back(p);
-    if (!has_uvs) continue;
+    if (!header.has_uvs) continue;
     // Colours between the normal and the texture coordinates may have any number of components.
     rest.clear();
     while (scan.skip_blank()) rest.push_back(scan.number("value behind the coordinates"));
-    if (rest.size() < (has_normals ? 5U : 2U)) scan.fail("vertex has no texture coordinates");
+    if (rest.size() < (header.has_normals ? 5U : 2U))
+      scan.fail("vertex has no texture coordinates");
     out.mesh.uvs.emplace_back(rest[rest.size() - 2], rest.back());
-    if (!out.mesh.uvs.back().allFinite()) ++missing_uvs;
   }
-  for (std::size_t i = 0; i < faces; ++i, scan.next_line()) {
+}
+
+void read_faces(TextScan& scan, const OffHeader& header, PolygonMesh& out) {
+  for (std::size_t i = 0; i < header.faces; ++i, scan.next_line()) {
     next_filled_line(scan);
-    const std::size_t corners = count(scan.token(), "number of corners", scan);
+    const std::size_t corners = read_count(scan.token(), "number of corners", scan);
     if (corners < 3)
       scan.fail("a face needs at least 3 corners, here are " + std::to_string(corners));
     for (std::size_t k = 0; k < corners; ++k) {
-      const std::size_t v = count(scan.token(), "vertex index", scan);
-      if (v >= vertices) {
+      const std::size_t v = read_count(scan.token(), "vertex index", scan);
+      if (v >= header.vertices) {
         scan.fail("vertex index " + std::to_string(v) + " is out of range (" +
-                  std::to_string(vertices) + " vertices)");
+                  std::to_string(header.vertices) + " vertices)");
       }
       const auto vertex = static_cast<Index>(v);
-      out.add_corner(vertex, has_uvs && out.mesh.uvs[v].allFinite() ? vertex : kNone);
+      out.add_corner(vertex, header.has_uvs ? vertex : kNone);
     }
     out.end_polygon(kNone);
   }
-  for (Vec2& uv : out.mesh.uvs) {
-    if (!uv.allFinite()) uv.setZero();
-  }
-  if (missing_uvs > 0 && warnings) {
-    warnings->push_back(path.string() + ": " + std::to_string(missing_uvs) +
-                        " texture coordinates are not finite and count as missing");
-  }
+}
+
+}  // namespace
+
+TriangleMesh read_off(const std::filesystem::path& path, const std::string& content,
+                      std::vector<std::string>* warnings) {
+  TextScan scan(content, path.string(), Syntax::comments);
+  const OffHeader header = read_header(scan);
+  PolygonMesh out;
+  read_vertices(scan, header, out);
+  read_faces(scan, header, out);
+  drop_missing_uvs(out, path.string(), warnings);
   return triangulate(std::move(out), path.string());
 }
 

@@ -1,24 +1,20 @@
-// STL, text and binary. Its triangles share no vertices: weld() joins them.
-#include <bit>
-#include <cstring>
+#include "onmesh/mesh_io/read_stl.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <string_view>
+#include <utility>
+
+#include "onmesh/base/byte_order.h"
 #include "onmesh/base/error.h"
 #include "onmesh/base/text_scan.h"
-#include "onmesh/mesh_io/mesh_io.h"
 #include "onmesh/mesh_io/polygon_mesh.h"
 
 namespace onmesh {
 namespace {
 
 constexpr std::size_t kHeaderSize = 84, kFacetSize = 50;
-
-template <class T>
-T little_endian(const char* bytes) {
-  std::array<char, sizeof(T)> b;
-  std::memcpy(b.data(), bytes, sizeof(T));
-  if constexpr (std::endian::native == std::endian::big) std::reverse(b.begin(), b.end());
-  return std::bit_cast<T>(b);
-}
 
 bool equals(std::string_view token, std::string_view lower_case) {
   return token.size() == lower_case.size() &&
@@ -33,7 +29,7 @@ bool is_text(const std::string& content) {
   if (begin == std::string::npos || !equals(std::string_view(content).substr(begin, 5), "solid"))
     return false;
   if (content.size() < kHeaderSize) return true;
-  const std::uint64_t facets = little_endian<std::uint32_t>(content.data() + 80);
+  const std::uint64_t facets = from_bytes<std::uint32_t>(content.data() + 80, std::endian::little);
   if (content.size() == kHeaderSize + kFacetSize * facets) return false;
   return content.find('\0') == std::string::npos;
 }
@@ -84,7 +80,7 @@ void read_text(const std::string& content, const std::string& file, PolygonMesh&
 void read_binary(const std::string& content, const std::string& file, PolygonMesh& out,
                  std::vector<std::string>* warnings) {
   if (content.size() < kHeaderSize) throw InputError(file + ": is not an STL file (too short)");
-  const std::size_t facets = little_endian<std::uint32_t>(content.data() + 80);
+  const std::size_t facets = from_bytes<std::uint32_t>(content.data() + 80, std::endian::little);
   const std::size_t held = (content.size() - kHeaderSize) / kFacetSize;
   if (facets > held) {
     throw InputError(file + ": promises " + std::to_string(facets) + " facets, the file holds " +
@@ -101,7 +97,7 @@ void read_binary(const std::string& content, const std::string& file, PolygonMes
     std::array<Vec3, 3> corners;
     for (std::size_t k = 0; k < 9; ++k) {
       corners[k / 3][static_cast<int>(k % 3)] =
-          static_cast<double>(little_endian<float>(at + 4 * k));
+          static_cast<double>(from_bytes<float>(at + 4 * k, std::endian::little));
     }
     for (const Vec3& p : corners) {
       if (!p.allFinite())

@@ -1,23 +1,13 @@
 #include "onmesh/mesh_io/write_ply.h"
 
-#include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cstdint>
 
+#include "onmesh/base/byte_order.h"
 #include "onmesh/base/file_io.h"
 
 namespace onmesh {
-namespace {
-
-template <class T>
-void append(std::string& out, T value) {
-  auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
-  if constexpr (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
-  out.append(bytes.data(), bytes.size());
-}
-
-}  // namespace
-
 void write_ply(const std::filesystem::path& path, const std::vector<PlyColumn>& columns,
                const std::vector<std::array<Index, 3>>& faces,
                const std::vector<std::string>& comments) {
@@ -45,9 +35,9 @@ void write_ply(const std::filesystem::path& path, const std::vector<PlyColumn>& 
   for (std::size_t i = 0; i < vertices; ++i) {
     for (const PlyColumn& column : columns) {
       if (column.integer) {
-        append(out, static_cast<std::int32_t>(column.values[i]));
+        append_bytes(out, static_cast<std::int32_t>(column.values[i]), std::endian::little);
       } else {
-        append(out, column.values[i]);
+        append_bytes(out, column.values[i], std::endian::little);
       }
     }
   }
@@ -55,7 +45,7 @@ void write_ply(const std::filesystem::path& path, const std::vector<PlyColumn>& 
     out += '\3';
     for (const Index v : face) {
       assert(v < vertices);
-      append(out, static_cast<std::int32_t>(v));
+      append_bytes(out, static_cast<std::int32_t>(v), std::endian::little);
     }
   }
   write_file(path, out);

@@ -5,28 +5,10 @@
 #include <algorithm>
 
 #include "onmesh/mesh/closest_point.h"
-#include "onmesh/mesh/edge_table.h"
+#include "onmesh/mesh/components.h"
 
 namespace onmesh {
 namespace {
-
-/// Component of every face, numbered from 0.
-std::vector<Index> component_of_faces(const TriangleMesh& mesh, Index& count) {
-  DisjointSets vertices(mesh.positions.size());
-  for (const auto& f : mesh.faces) {
-    vertices.join(f[0], f[1]);
-    vertices.join(f[0], f[2]);
-  }
-  std::vector<Index> number(mesh.positions.size(), kNone), component;
-  component.reserve(mesh.faces.size());
-  count = 0;
-  for (const auto& f : mesh.faces) {
-    Index& n = number[vertices.find(f[0])];
-    if (n == kNone) n = count++;
-    component.push_back(n);
-  }
-  return component;
-}
 
 /// Which components have another one's bounding box within `width` of their own: the others need
 /// no search.
@@ -54,10 +36,10 @@ std::vector<bool> find_close(const std::vector<Eigen::AlignedBox3d>& boxes, doub
 
 Index add_bridges(const TriangleMesh& mesh, double width, NodeSurface& surface) {
   NodeMesh& nodes = surface.nodes;
-  Index components = 0;
-  const std::vector<Index> component = component_of_faces(mesh, components);
-  if (components < 2) return 0;
-  std::vector<Eigen::AlignedBox3d> boxes(components);
+  const FaceComponents components = connected_components(mesh);
+  const std::vector<Index>& component = components.of_face;
+  if (components.count < 2) return 0;
+  std::vector<Eigen::AlignedBox3d> boxes(components.count);
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     for (const Vec3& p : mesh.corners(f)) boxes[component[f]].extend(p);
   }
@@ -65,13 +47,13 @@ Index add_bridges(const TriangleMesh& mesh, double width, NodeSurface& surface) 
   if (std::find(close.begin(), close.end(), true) == close.end()) return 0;
 
   // For every node the node face across the gap.
-  const ClosestPoint projection(mesh);
+  const ClosestPoint closest_point(mesh);
   std::vector<Index> across(nodes.nodes.size(), kNone);
   tbb::parallel_for(std::size_t{0}, across.size(), [&](std::size_t n) {
     const SurfacePoint& node = nodes.nodes[n];
     if (node.face == kNone || !close[component[node.face]]) return;
     const auto nearest =
-        projection.closest_other(mesh.position(node), width, component, component[node.face]);
+        closest_point.closest_other(mesh.position(node), width, component, component[node.face]);
     if (nearest) across[n] = surface.overlay.locate(*nearest).face;
   });
 

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "onmesh/base/error.h"
+#include "onmesh/base/text.h"
 #include "onmesh/mesh/edge_table.h"
+#include "onmesh/mesh/vertex_fans.h"
 
 namespace onmesh {
 namespace {
@@ -19,9 +21,8 @@ std::string place(const TriangleMesh& mesh, Index vertex) {
 
 [[noreturn]] void refuse(std::size_t count, const char* one, const char* many,
                          const std::string& where, const char* remedy) {
-  throw InputError("the mesh is not manifold: " + std::to_string(count) + " " +
-                   (count == 1 ? one : many) + (count == 1 ? ", " : ", the first one ") + where +
-                   "; " + remedy);
+  throw InputError("the mesh is not manifold: " + count_text(count, one, many) +
+                   (count == 1 ? ", " : ", the first one ") + where + "; " + remedy);
 }
 
 // Connectivity from OpenMesh with half-edges in the order of the faces' corners.

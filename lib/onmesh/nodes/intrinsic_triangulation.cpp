@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "onmesh/base/plane.h"
+
 namespace onmesh {
 namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace
 

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "onmesh/base/disjoint_sets.h"
+#include "onmesh/mesh/edge_table.h"
 #include "onmesh/nodes/delaunay_refine.h"
 #include "onmesh/nodes/make_overlay.h"
 #include "onmesh/nodes/sizing_field.h"

@@ -32,16 +32,6 @@ double NodeMesh::face_area(Index face) const {
   return triangle_area(l[0], l[1], l[2]);
 }
 
-double triangle_area(double a, double b, double c) {
-  if (a < b) std::swap(a, b);
-  if (b < c) std::swap(b, c);
-  if (a < b) std::swap(a, b);
-  // The parentheses matter: with a >= b >= c each factor is accurate to rounding.
-  const double slack = c - (a - b);
-  if (!(slack > 0)) return 0;
-  return 0.25 * std::sqrt((a + (b + c)) * slack * (c + (a - b)) * (a + (b - c)));
-}
-
 namespace {
 
 // Glue the half-edges whose unordered pair of vertices occurs exactly twice.

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "onmesh/base/triangle.h"
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {
@@ -47,9 +48,5 @@ struct NodePoint {
 /// The mesh's own vertices and faces as nodes, unrefined. Node i is vertex i; its point's face is
 /// kNone if no face uses the vertex. Faces glue where exactly two share a pair of vertices.
 NodeMesh make_node_mesh(const TriangleMesh& mesh);
-
-/// Area of a triangle from its side lengths without cancellation (Kahan). 0 if they violate the
-/// triangle inequality.
-double triangle_area(double a, double b, double c);
 
 }  // namespace onmesh

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "onmesh/mesh/clean.h"
 #include "onmesh/mesh/triangle_mesh.h"
 #include "onmesh/nodes/node_surface.h"
 

@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "onmesh/base/error.h"
+#include "onmesh/mesh/vertex_fans.h"
 
 namespace onmesh {
 namespace {

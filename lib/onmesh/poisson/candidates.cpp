@@ -37,7 +37,7 @@ std::vector<CandidatePart> candidate_parts(const TriangleMesh& mesh, const Spaci
   return parts;
 }
 
-void throw_candidates_at(const CandidatePart& part, SplitMix& random, const DiskSet& board,
+void throw_candidates_at(const CandidatePart& part, SplitMix& random, const DiskSet& disks,
                          ConnectedBall& ball, DartBlock& block) {
   const auto count = std::size_t(part.count + random.uniform());
   if (count == 0) return;
@@ -51,9 +51,9 @@ void throw_candidates_at(const CandidatePart& part, SplitMix& random, const Disk
   for (std::size_t i = 0; i < count; ++i, ++points) {
     const Vec3 barycentric(points->x(), points->y(), points->z());
     const SurfacePoint candidate{part.face, barycentric.cwiseMax(0.0) / barycentric.sum()};
-    const Vec3 position = board.mesh().position(candidate);
-    const double spacing = board.field().at(part.face, position);
-    if (board.room(candidate, position, spacing, ball, true) < spacing) continue;
+    const Vec3 position = disks.mesh().position(candidate);
+    const double spacing = disks.field().at(part.face, position);
+    if (disks.room(candidate, position, spacing, ball, true) < spacing) continue;
     block.add(candidate, position, spacing, random.next(), ball.result());
   }
 }

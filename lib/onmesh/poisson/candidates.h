@@ -1,4 +1,4 @@
-// Random points of the surface to choose samples from.
+// Random points of the surface to choose samples from (internal).
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ std::vector<CandidatePart> candidate_parts(const TriangleMesh& mesh, const Spaci
 
 /// Add darts at random points (CGAL) of a part to the block, as far as they conflict with no
 /// sample.
-void throw_candidates_at(const CandidatePart& part, SplitMix& random, const DiskSet& board,
+void throw_candidates_at(const CandidatePart& part, SplitMix& random, const DiskSet& disks,
                          ConnectedBall& ball, DartBlock& block);
 
 }  // namespace onmesh

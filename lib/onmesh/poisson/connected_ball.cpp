@@ -3,18 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "onmesh/base/triangle.h"
+
 namespace onmesh {
-
-namespace {
-
-double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 edge = b - a;
-  const double length = edge.squaredNorm();
-  const double t = length > 0 ? std::clamp((p - a).dot(edge) / length, 0.0, 1.0) : 0.0;
-  return (a + t * edge - p).squaredNorm();
-}
-
-}  // namespace
 
 ConnectedBall::Joins ConnectedBall::make_joins(const TriangleMesh& mesh) {
   Joins joins;

@@ -1,4 +1,4 @@
-// Surface inside a ball: what is close in space *and* on the surface.
+// Surface inside a ball: what is close in space *and* on the surface (internal).
 #pragma once
 
 #include <memory>
@@ -9,10 +9,11 @@
 namespace onmesh {
 
 /// Finds the faces that a ball around a surface point meets in the piece of surface that contains
-/// the point: the other side of a thin sheet is in the ball, but not in that piece. Works on any
-/// triangle complex: faces are joined across edges of any number of faces and at vertices.
-/// Not for concurrent use, since a query leaves its marks in the object; copies share what does not
-/// change, so each thread may have one.
+/// the point: the other side of a thin sheet is in the ball, but not in that piece.
+///
+/// Works on any triangle complex: faces are joined across edges of any number of faces and at
+/// vertices. Not for concurrent use, since a query leaves its marks in the object; copies share
+/// what does not change, so each thread may have one.
 class ConnectedBall {
  public:
   /// \pre mesh is welded; it must outlive this
@@ -21,11 +22,13 @@ class ConnectedBall {
   /// Faces joined to `face` inside the open ball, `face` itself first; valid until the next call.
   /// A face meets a ball in a convex piece, so every point of a face found that is within `radius`
   /// of `centre` is joined to it inside the ball.
-  /// \pre centre lies on face
+  /// \param radius mesh units
+  /// \pre centre lies on the face
   const std::vector<Index>& find(Index face, const Vec3& centre, double radius);
 
   /// What the last find() found.
   const std::vector<Index>& result() const { return result_; }
+  /// Whether the last find() found the face.
   bool found(Index face) const { return face_marks_[face] == mark_; }
 
  private:

@@ -15,7 +15,10 @@ double factor(const SpacingField& field) {
   return field.graded() ? (1 + field.slope()) * (1 + 1e-9) : 1;
 }
 
-// Which of many darts are added: greedily by rank, as if one by one.
+// Which of many darts are added: greedily by rank, as if one by one, though in parallel (Blelloch,
+// Fineman and Shun, "Greedy sequential maximal independent set and matching are parallel on
+// average", 2012; random ranks for darts on surfaces: Ying, Xin, Sun and He, "An intrinsic
+// algorithm for parallel Poisson disk sampling on arbitrary surfaces", 2013).
 class Settlement {
  public:
   Settlement(const std::vector<DartBlock>& blocks, const Vec3& origin, const SpacingField& field) {
@@ -172,24 +175,19 @@ double DiskSet::room(const SurfacePoint& point, const Vec3& position, double spa
 void DiskSet::settle(const std::vector<DartBlock>& blocks) {
   Settlement settlement(blocks, origin_, field_);
   settlement.run();
-  settlement.visit_added([&](const Dart& dart, const Index* reach) {
-    reach_.insert(reach_.end(), reach + dart.first_reach, reach + dart.first_reach + dart.reach);
-    reach_offsets_.push_back(reach_.size());
-    grid_.insert(Index(samples_.size()), dart.point.face, dart.position, dart.spacing);
-    samples_.push_back(dart.point);
-    spacings_.push_back(dart.spacing);
-  });
+  settlement.visit_added([&](const Dart& dart, const Index* reach) { add(dart, reach); });
 }
 
 void DiskSet::append(const DartBlock& block) {
-  for (const Dart& dart : block.darts) {
-    const auto first = block.reach.begin() + dart.first_reach;
-    reach_.insert(reach_.end(), first, first + dart.reach);
-    reach_offsets_.push_back(reach_.size());
-    grid_.insert(Index(samples_.size()), dart.point.face, dart.position, dart.spacing);
-    samples_.push_back(dart.point);
-    spacings_.push_back(dart.spacing);
-  }
+  for (const Dart& dart : block.darts) add(dart, block.reach.data());
+}
+
+void DiskSet::add(const Dart& dart, const Index* reach) {
+  reach_.insert(reach_.end(), reach + dart.first_reach, reach + dart.first_reach + dart.reach);
+  reach_offsets_.push_back(reach_.size());
+  grid_.insert(Index(samples_.size()), dart.point.face, dart.position, dart.spacing);
+  samples_.push_back(dart.point);
+  spacings_.push_back(dart.spacing);
 }
 
 }  // namespace onmesh

@@ -16,7 +16,7 @@ struct Dart {
   Vec3 position;
   double spacing;
   std::uint64_t rank;  ///< of two darts too close to each other the lower one goes first
-  Index first_reach = 0, reach = 0;
+  Index first_reach = 0, reach = 0;  ///< the faces it reaches, in its block: first and number
 };
 
 /// Darts thrown by one thread.
@@ -25,17 +25,23 @@ struct DartBlock {
   /// Per dart, the faces that the ball of its spacing reaches, sorted; none if only its own.
   std::vector<Index> reach;
 
+  /// \param reached faces that the ball of its spacing reaches, its own first
   void add(const SurfacePoint& point, const Vec3& position, double spacing, std::uint64_t rank,
            const std::vector<Index>& reached);
 };
 
-/// Two samples conflict when they are closer in space than the smaller of their spacings, and the
-/// surface joins them within the ball of its own spacing around one of them.
+/// The samples, found by where they are.
+///
+/// Two samples conflict when they are closer in space than the smaller of their spacings ("smaller
+/// disks" of Mitchell, Rand, Ebeida and Bajaj, "Variable radii Poisson-disk sampling", 2012), and
+/// the surface joins them within the ball of its own spacing around one of them.
 ///
 /// Queries are const and may run in parallel; settle() and append() may not run beside them.
 class DiskSet {
  public:
   /// \param origin no sample is below it in any coordinate
+  /// \param expected_samples about how many there will be
+  /// \pre mesh and field outlive this
   DiskSet(const TriangleMesh& mesh, const SpacingField& field, const Vec3& origin,
           std::size_t expected_samples);
 
@@ -59,6 +65,9 @@ class DiskSet {
   /// Distance to the closest sample that a point with this spacing conflicts with, the spacing if
   /// there is none. Leaves in `ball` what the ball of that radius around the point reaches, unless
   /// it returns as soon as there is `any`.
+  /// \param point with its position in space and its spacing
+  /// \param any whether the distance to any such sample will do
+  /// \param skip a sample that does not count
   double room(const SurfacePoint& point, const Vec3& position, double spacing, ConnectedBall& ball,
               bool any = false, Index skip = kNone) const;
 
@@ -67,10 +76,12 @@ class DiskSet {
   /// darts, but that is the order in which they are numbered.
   void settle(const std::vector<DartBlock>& blocks);
 
-  /// Add all of them.
+  /// Add all of them, whether they conflict or not.
   void append(const DartBlock& block);
 
  private:
+  void add(const Dart& dart, const Index* reach);
+
   const TriangleMesh& mesh_;
   const SpacingField& field_;
   const Vec3 origin_;

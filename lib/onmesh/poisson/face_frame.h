@@ -1,4 +1,4 @@
-// Faces laid out in the plane, and rectangles that divide them.
+// Faces laid out in the plane, and rectangles that divide them (internal).
 #pragma once
 
 #include <Eigen/Geometry>

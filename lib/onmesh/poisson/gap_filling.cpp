@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "onmesh/mesh/closest_point.h"
+#include "onmesh/base/triangle.h"
 
 namespace onmesh {
 
@@ -88,22 +88,22 @@ void divide(const TriangleMesh& mesh, const SpacingField& field, const FaceCell&
   Divider(field, frame, list).divide(part.cell);
 }
 
-GapFilling::GapFilling(const DiskSet& board, const ConnectedBall& ball)
-    : board_(&board), ball_(ball), frame_(0, board.mesh().corners(0)) {}
+GapFilling::GapFilling(const DiskSet& disks, const ConnectedBall& ball)
+    : disks_(&disks), ball_(ball), frame_(0, disks.mesh().corners(0)) {}
 
 bool GapFilling::cover(const FaceCell& cell, const Index* sources, SplitMix& random,
                        DartBlock& block) {
   const Index face = cell.face;
-  if (frame_.face != face) frame_ = FaceFrame(face, board_->mesh().corners(face));
+  if (frame_.face != face) frame_ = FaceFrame(face, disks_->mesh().corners(face));
   random_ = &random;
   block_ = &block;
   near_.clear();
   sources_.assign(sources, sources + cell.sources);
   CellSpacing spacing;
-  spacing.bound(board_->field(), frame_, cell.cell, sources, cell.sources);
+  spacing.bound(disks_->field(), frame_, cell.cell, sources, cell.sources);
   const double radius = cell.cell.radius();
   const Vec3 centre = frame_.position(cell.cell.centre());
-  const bool covered = board_->visit(
+  const bool covered = disks_->visit(
       centre, spacing.low, spacing.high, spacing.high + radius, [&](const PointGrid::Entry& entry) {
         const double squared_spacing = entry.spacing * entry.spacing;
         const double reach = std::min(spacing.high, entry.spacing) + radius;
@@ -112,7 +112,7 @@ bool GapFilling::cover(const FaceCell& cell, const Index* sources, SplitMix& ran
         const Vec2 foot(d.dot(frame_.x_axis), d.dot(frame_.y_axis));
         const double height =
             (d - foot.x() * frame_.x_axis - foot.y() * frame_.y_axis).squaredNorm();
-        const bool joined = board_->reaches(entry.number, entry.label, face);
+        const bool joined = disks_->reaches(entry.number, entry.label, face);
         near_.push_back(
             {foot, height, squared_spacing, entry.position, entry.number, entry.label, joined});
         return joined && squared_to_farthest(foot, cell.cell) + height <
@@ -130,12 +130,12 @@ bool GapFilling::fill(const Cell& cell, const Range& near, const Range& sources)
   Range own_sources = sources;
   if (sources.first < sources.last) {
     kept_.clear();
-    spacing.bound(board_->field(), frame_, cell, sources_.data() + sources.first,
+    spacing.bound(disks_->field(), frame_, cell, sources_.data() + sources.first,
                   sources.last - sources.first, &kept_);
     sources_.insert(sources_.end(), kept_.begin(), kept_.end());
     own_sources = {first_source, sources_.size()};
   } else {
-    spacing.centre = spacing.low = spacing.high = board_->field().most(frame_.face);
+    spacing.centre = spacing.low = spacing.high = disks_->field().most(frame_.face);
   }
   const double squared_low = spacing.low * spacing.low;
   const double squared_high = spacing.high * spacing.high;
@@ -197,10 +197,10 @@ bool GapFilling::throw_dart(const Cell& cell, const Range& sources, std::size_t 
   const Vec2 place = cell.low + Vec2(u, v).cwiseProduct(cell.high - cell.low);
   const SurfacePoint dart{frame_.face, frame_.barycentric(place)};
   if (dart.barycentric.minCoeff() < 0) return false;
-  const Vec3 position = board_->mesh().position(dart);
-  double spacing = board_->field().most(frame_.face);
+  const Vec3 position = disks_->mesh().position(dart);
+  double spacing = disks_->field().most(frame_.face);
   for (std::size_t i = sources.first; i < sources.last; ++i)
-    spacing = std::min(spacing, board_->field().limit(sources_[i], position));
+    spacing = std::min(spacing, disks_->field().limit(sources_[i], position));
   const auto close = [&](const Near& near) {
     return (near.position - position).squaredNorm() <
            std::min(near.squared_spacing, spacing * spacing);
@@ -223,12 +223,12 @@ bool GapFilling::throw_dart(const Cell& cell, const Range& sources, std::size_t 
 // Throws a dart at the point of the face that is closest to the centre of a cell of the finest
 // size. This point may lie just outside the cell, where near_ is not complete.
 bool GapFilling::throw_last_dart(const Cell& cell) {
-  const auto corners = board_->mesh().corners(frame_.face);
+  const auto corners = disks_->mesh().corners(frame_.face);
   const SurfacePoint dart{frame_.face,
                           closest_barycentric(corners, frame_.position(cell.centre()))};
-  const Vec3 position = board_->mesh().position(dart);
-  const double spacing = board_->field().at(frame_.face, position);
-  if (board_->room(dart, position, spacing, ball_, true) < spacing) return false;
+  const Vec3 position = disks_->mesh().position(dart);
+  const double spacing = disks_->field().at(frame_.face, position);
+  if (disks_->room(dart, position, spacing, ball_, true) < spacing) return false;
   add_dart(dart, position, spacing);
   return true;
 }

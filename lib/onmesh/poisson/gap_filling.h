@@ -1,4 +1,5 @@
-// Cells that the faces are divided into, and whether samples cover them.
+// Filling the gaps between samples: cells that the faces are divided into, and whether samples
+// cover them (internal).
 #pragma once
 
 #include <vector>
@@ -25,19 +26,27 @@ struct CellList {
 std::vector<FaceCell> make_parts(const TriangleMesh& mesh, const SpacingField& field,
                                  const std::vector<Index>& faces);
 
-/// Divide a part into cells, which are added to the list.
+/// Divide a part into cells of about the spacing in them, which are added to the list.
 void divide(const TriangleMesh& mesh, const SpacingField& field, const FaceCell& part,
             CellList& list);
 
-/// Finds out whether samples cover a cell, or a place in it that none covers. Holds one thread's
-/// stacks; copies are for other threads.
+/// Finds out whether samples cover a cell, or a place in it that none covers.
+///
+/// A cell that no sample covers is tried with a dart and then halved, down to the finest size:
+/// after the octrees of Gamito and Maddock ("Accurate multidimensional Poisson-disk sampling",
+/// 2009) and the grids of Ebeida et al. ("A simple algorithm for maximal Poisson-disk sampling in
+/// high dimensions", 2012), here with rectangles in the plane of each face. A sample on another
+/// face covers a cell only where the surface joins them.
+///
+/// Holds one thread's stacks; copies are for other threads.
 class GapFilling {
  public:
-  /// \pre board outlives this
-  GapFilling(const DiskSet& board, const ConnectedBall& ball);
+  /// \pre disks outlives this
+  GapFilling(const DiskSet& disks, const ConnectedBall& ball);
 
   /// Whether every point of the cell conflicts with a sample, up to kTolerance of its spacing;
   /// otherwise a dart that conflicts with none is added to the block.
+  /// \param sources of the cell, cell.sources of them
   bool cover(const FaceCell& cell, const Index* sources, SplitMix& random, DartBlock& block);
 
  private:
@@ -61,7 +70,7 @@ class GapFilling {
   bool throw_last_dart(const Cell& cell);
   void add_dart(const SurfacePoint& dart, const Vec3& position, double spacing);
 
-  const DiskSet* board_;
+  const DiskSet* disks_;
   ConnectedBall ball_;
   FaceFrame frame_;
   std::vector<Near> near_;  // stack

@@ -1,4 +1,4 @@
-// Points hashed into uniform grids, for finding those near a place while more are added.
+// Points hashed into uniform grids, for finding those near a place while more are added (internal).
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,9 @@
 
 namespace onmesh {
 
-/// Points with a spacing of their own, in grids whose cells double in size from level to level: a
-/// place with spacing r is looked up in the grid of that spacing's level, and a point is in the
+/// Points with a spacing of their own, in grids whose cells double in size from level to level.
+///
+/// A place with spacing r is looked up in the grid of that spacing's level, and a point is in the
 /// grids of all levels that its spacing differs from by at most a factor. The cells share buckets
 /// (hash without keys), so a query may name points that are farther away, or one point twice:
 /// callers test the distance anyway.

@@ -10,11 +10,11 @@
 #include <limits>
 #include <sstream>
 
-#include "onmesh/atlas/claim_lookup.h"
 #include "onmesh/base/error.h"
 #include "onmesh/poisson/candidates.h"
 #include "onmesh/poisson/gap_filling.h"
 #include "onmesh/poisson/spacing_field.h"
+#include "onmesh/poisson/texel_coverage.h"
 
 namespace onmesh {
 
@@ -95,18 +95,18 @@ class Sampler {
         progress_(progress),
         seed_(SplitMix(options.seed).next()),
         chosen_(choose_faces(mesh, options.faces)),
-        board_(mesh, field, chosen_.origin, expect_samples(mesh, field, chosen_)),
+        disks_(mesh, field, chosen_.origin, expect_samples(mesh, field, chosen_)),
         ball_(mesh) {}
 
-  /// Leaves a maximal set on the board.
+  /// Makes the set maximal.
   void run() {
     throw_candidates();
     fill();
   }
-  void hit(const TexelMap& map) { hit_all_texels(map, ball_, board_); }
+  void hit(const TexelMap& map) { hit_all_texels(map, ball_, disks_); }
   DiskSet& finish() {
     report(1);
-    return board_;
+    return disks_;
   }
 
  private:
@@ -124,7 +124,7 @@ class Sampler {
   const Progress& progress_;
   const std::uint64_t seed_;
   const SampledFaces chosen_;
-  DiskSet board_;
+  DiskSet disks_;
   const ConnectedBall ball_;  // copied for each thread
   double filled_ = 0;         // share of the filling that is done
   std::uint64_t number_ = 0;  // of the next cell
@@ -139,9 +139,9 @@ void Sampler::throw_candidates() {
     for (double count = 0; last < parts.size() && count < double(kDartsAtOnce); ++last)
       count += parts[last].count;
     for (std::uint64_t turn = 0; turn < kCandidateTurns; ++turn) {
-      board_.settle(in_blocks<DartBlock>(last - first, [&](std::size_t i, DartBlock& block) {
+      disks_.settle(in_blocks<DartBlock>(last - first, [&](std::size_t i, DartBlock& block) {
         SplitMix random(seed_ ^ turn, first + i);
-        throw_candidates_at(parts[first + i], random, board_, balls.local(), block);
+        throw_candidates_at(parts[first + i], random, disks_, balls.local(), block);
       }));
     }
     report(kCandidateShare * double(last) / double(parts.size()));
@@ -190,7 +190,7 @@ CellList Sampler::make_cells(const FaceCell* first, std::size_t count) const {
 // Makes the set maximal on the cells, round by round: every cell whose turn it is and that is not
 // covered throws a dart.
 void Sampler::fill(const CellList& list, double share) {
-  oneapi::tbb::enumerable_thread_specific<GapFilling> fillers(GapFilling(board_, ball_));
+  oneapi::tbb::enumerable_thread_specific<GapFilling> fillings(GapFilling(disks_, ball_));
   std::vector<Index> open(list.cells.size()), still_open;
   for (Index i = 0; i < Index(open.size()); ++i) open[i] = i;
   std::vector<std::uint8_t> covered(list.cells.size(), 0);
@@ -198,13 +198,13 @@ void Sampler::fill(const CellList& list, double share) {
     still_open.clear();
     for (std::size_t first = 0; first < open.size(); first += kDartsAtOnce) {
       const std::size_t last = std::min(open.size(), first + kDartsAtOnce);
-      board_.settle(in_blocks<DartBlock>(last - first, [&](std::size_t i, DartBlock& block) {
+      disks_.settle(in_blocks<DartBlock>(last - first, [&](std::size_t i, DartBlock& block) {
         const Index at = open[first + i];
         const FaceCell& cell = list.cells[at];
         SplitMix random(seed_ + 1 + round, number_ + at);
         if (random.uniform() > turn(cell, round)) return;
         covered[at] =
-            fillers.local().cover(cell, list.sources.data() + cell.first_source, random, block);
+            fillings.local().cover(cell, list.sources.data() + cell.first_source, random, block);
       }));
       for (std::size_t i = first; i < last; ++i)
         if (!covered[open[i]]) still_open.push_back(open[i]);
@@ -236,8 +236,8 @@ GradedSamples texel_poisson_samples(const TriangleMesh& mesh, const TexelMap& ma
   Sampler sampler(mesh, field, options, progress);
   sampler.run();
   sampler.hit(map);
-  DiskSet& board = sampler.finish();
-  return {board.take_samples(), board.take_spacings()};
+  DiskSet& disks = sampler.finish();
+  return {disks.take_samples(), disks.take_spacings()};
 }
 
 double least_sample_distance(const TriangleMesh& mesh, const GradedSamples& samples) {

@@ -1,12 +1,12 @@
 // The round shapes of shapes.h: icosphere and blob.
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 
-#include <Eigen/Dense>
-
 #include "onmesh/base/error.h"
+#include "onmesh/base/random.h"
 #include "onmesh/procedural/shapes.h"
 
 namespace onmesh {
@@ -113,10 +113,10 @@ TriangleMesh make_blob(int levels, std::uint64_t seed, double amplitude) {
   double phase[kWaves];
   for (unsigned w = 0; w < kWaves; ++w) {
     Vec3 d;
-    for (unsigned c = 0; c < 3; ++c) d[c] = 2 * hash_unit(seed, w, c) - 1;
+    for (unsigned c = 0; c < 3; ++c) d[c] = 2 * random_unit_at(seed, w, c) - 1;
     // Two to five radians per unit length: one to two bumps across the surface.
-    direction[w] = (2 + 3 * hash_unit(seed, w, 3)) * d.normalized();
-    phase[w] = 2 * std::numbers::pi * hash_unit(seed, w, 4);
+    direction[w] = (2 + 3 * random_unit_at(seed, w, 3)) * d.normalized();
+    phase[w] = 2 * std::numbers::pi * random_unit_at(seed, w, 4);
   }
   for (Vec3& p : mesh.positions) {
     double sum = 0;

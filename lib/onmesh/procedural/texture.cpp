@@ -1,26 +1,16 @@
 #include "onmesh/procedural/texture.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
-
-#include <Eigen/Dense>
 
 #include "onmesh/base/error.h"
+#include "onmesh/base/random.h"
+#include "onmesh/base/triangle.h"
 
 namespace onmesh {
 namespace {
-
-std::uint64_t mix(std::uint64_t x) {
-  // Multiplication by odd constants and xor-shifts, twice: each input bit reaches every output bit.
-  x ^= x >> 32;
-  x *= 0xd6e8feb86659fd93ULL;
-  x ^= x >> 32;
-  x *= 0xd6e8feb86659fd93ULL;
-  x ^= x >> 32;
-  return x;
-}
 
 std::uint64_t lattice(double x) { return std::uint64_t(std::int64_t(std::floor(x))); }
 
@@ -36,7 +26,8 @@ double value_noise(std::uint64_t seed, const Vec3& p) {
     const double weight =
         (dx ? t.x() : 1 - t.x()) * (dy ? t.y() : 1 - t.y()) * (dz ? t.z() : 1 - t.z());
     if (weight == 0) continue;
-    sum += weight * hash_unit(seed, lattice(p.x()) + dx, lattice(p.y()) + dy, lattice(p.z()) + dz);
+    sum += weight *
+           random_unit_at(seed, lattice(p.x()) + dx, lattice(p.y()) + dy, lattice(p.z()) + dz);
   }
   return sum;
 }
@@ -56,7 +47,7 @@ Vec3 pattern_colour(Pattern pattern, const Vec3& p, const Vec3& extent, std::uin
     case Pattern::noise: {
       Vec3 colour;
       for (int c = 0; c < 3; ++c) {
-        const std::uint64_t octave = hash(seed, std::uint64_t(c));
+        const std::uint64_t octave = random_bits_at(seed, std::uint64_t(c));
         colour[c] = 0.65 * value_noise(octave, p) + 0.35 * value_noise(octave + 1, 2 * p);
       }
       return colour;
@@ -65,10 +56,11 @@ Vec3 pattern_colour(Pattern pattern, const Vec3& p, const Vec3& extent, std::uin
       return 0.1 * Vec3::Ones() + 0.8 * extent;
     case Pattern::dots: {
       // One disk per cell, its centre and colour hashed; it stays inside its cell.
-      const std::uint64_t cell = hash(seed, lattice(p.x()), lattice(p.y()), lattice(p.z()));
+      const std::uint64_t cell =
+          random_bits_at(seed, lattice(p.x()), lattice(p.y()), lattice(p.z()));
       Vec3 centre;
       for (int c = 0; c < 3; ++c)
-        centre[c] = std::floor(p[c]) + 0.5 + 0.2 * (hash_unit(cell, unsigned(c)) - 0.5);
+        centre[c] = std::floor(p[c]) + 0.5 + 0.2 * (random_unit_at(cell, unsigned(c)) - 0.5);
       if ((p - centre).norm() > 0.38) return pale;
       return cell % 3 == 0 ? warm : cell % 3 == 1 ? cool : red;
     }
@@ -86,7 +78,7 @@ void add_noise(Image& image, Index texel, double noise, std::uint64_t seed) {
   for (int c = 0; c < image.channels; ++c) {
     float& value = image.texel(texel)[c];
     const double delta =
-        noise * (2 * hash_unit(seed, texel, std::uint64_t(c), 0x6e6f697365ULL) - 1);
+        noise * (2 * random_unit_at(seed, texel, std::uint64_t(c), 0x6e6f697365ULL) - 1);
     value = float(std::clamp(value + delta, 0.0, 1.0));
   }
 }
@@ -140,13 +132,11 @@ class NearestFaces {
   static bool inside(const Vec2& b) { return b.x() >= 0 && b.y() >= 0 && b.x() + b.y() <= 1; }
   static std::int64_t wrap(std::int64_t x, int size) { return ((x % size) + size) % size; }
   static double distance_to(const std::array<Vec2, 3>& p, const Vec2& q) {
-    double best = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 3; ++k) {
-      const Vec2 edge = p[(k + 1) % 3] - p[k];
-      const double t = std::clamp((q - p[k]).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
-      best = std::min(best, (p[k] + t * edge - q).norm());
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+      least = std::min(least, squared_distance_to_segment(q, p[k], p[(k + 1) % 3]));
     }
-    return best;
+    return std::sqrt(least);
   }
 
   int width_, height_, padding_;
@@ -155,14 +145,6 @@ class NearestFaces {
 };
 
 }  // namespace
-
-std::uint64_t hash(std::uint64_t seed, std::uint64_t a, std::uint64_t b, std::uint64_t c) {
-  return mix(mix(mix(mix(seed + 0x9e3779b97f4a7c15ULL) ^ a) + b) ^ c);
-}
-
-double hash_unit(std::uint64_t seed, std::uint64_t a, std::uint64_t b, std::uint64_t c) {
-  return double(hash(seed, a, b, c) >> 11) * 0x1p-53;
-}
 
 Image make_texture(int width, int height, Pattern pattern, double noise, std::uint64_t seed,
                    int channels) {

@@ -8,21 +8,18 @@
 
 namespace onmesh {
 
+/// What a texture shows.
 enum class Pattern { checker, stripes, noise, gradient, dots };
-
-/// Well-mixed 64 bits from a seed and up to three numbers; the source of all randomness here, so
-/// that every machine makes the same textures and meshes.
-std::uint64_t hash(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0);
-/// The hash as a number in [0, 1).
-double hash_unit(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0);
 
 /// A textured test image: the pattern, its cells an eighth of the longer side, with uniform noise
 /// from [-noise, noise] added to every value, clamped to [0,1]. Channel c has the colour of channel
-/// c mod 3.
-/// \throw UsageError unless width, height and channels are positive and noise is in [0, 1]
+/// c mod 3. Equal arguments give equal bytes on every machine.
+/// \param width,height in texels, [1, 32768]
+/// \throw UsageError unless the sizes and channels are in range and noise is in [0, 1]
 Image make_texture(int width, int height, Pattern pattern, double noise, std::uint64_t seed,
                    int channels = 3);
 
+/// How make_surface_texture() paints.
 struct SurfaceTextureOptions {
   Pattern pattern = Pattern::checker;
   double cell = 0;   ///< size of the pattern's cells, mesh units; 0 = an eighth of the longest side
@@ -32,8 +29,9 @@ struct SurfaceTextureOptions {
 };
 
 /// The pattern as a solid texture carved by the surface: it runs on across seams, whatever the
-/// atlas. Texels that no chart is near are grey. UVs outside [0,1] repeat. \throw UsageError for
-/// options or sizes outside their domain
+/// atlas. Texels that no chart is near are grey. UVs outside [0,1] repeat. 3 channels.
+/// \param width,height in texels, [1, 32768]
+/// \throw UsageError for options or sizes outside their domain, or an empty mesh
 Image make_surface_texture(const TriangleMesh& mesh, int width, int height,
                            const SurfaceTextureOptions& options);
 

@@ -1,19 +1,12 @@
 #include "onmesh/render/raster.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
-
-#include <Eigen/Geometry>
-
-#include "onmesh/base/error.h"
 
 namespace onmesh {
 namespace {
-
-constexpr double kFieldOfView = 30 * std::numbers::pi / 180;
-constexpr double kFill = 0.92;  // share of the picture that the model takes
 
 // cross(b - a, p - a) in fixed point.
 std::int64_t cross(std::int64_t ax, std::int64_t ay, std::int64_t bx, std::int64_t by,
@@ -26,59 +19,6 @@ std::int64_t floor_div(std::int64_t a, std::int64_t b) {
 }
 
 }  // namespace
-
-Camera::Camera(const TriangleMesh& mesh, const RenderOptions& options) {
-  // Bounding sphere around the box's centre, over vertices that faces use.
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const auto& face : mesh.faces) {
-    for (const Index v : face) {
-      low = low.cwiseMin(mesh.positions[v]);
-      high = high.cwiseMax(mesh.positions[v]);
-    }
-  }
-  const Vec3 centre = low + (high - low) / 2;
-  double radius = (high - low).norm() / 2;
-  if (!std::isfinite(radius)) throw InputError("view: the mesh is too large to be seen");
-  if (radius == 0) radius = 1;
-
-  // A frame with `up` and a direction at azimuth 0 that is not parallel to it.
-  const Vec3 up = options.up.normalized();
-  const Vec3 front = std::abs(up.z()) < 0.9 ? Vec3(0, 0, 1) : Vec3(0, -1, 0);
-  const Vec3 zero = (front - front.dot(up) * up).normalized(), side = up.cross(zero);
-  const double azimuth = options.azimuth_degrees * std::numbers::pi / 180;
-  const double elevation = options.elevation_degrees * std::numbers::pi / 180;
-  const Vec3 around = std::cos(azimuth) * zero + std::sin(azimuth) * side;
-  const Vec3 direction = std::cos(elevation) * around + std::sin(elevation) * up;
-  forward_ = -direction;
-  right_ = std::cos(azimuth) * side - std::sin(azimuth) * zero;
-  up_ = right_.cross(forward_);
-  eye_ = centre + radius / std::sin(kFieldOfView / 2) * direction;
-
-  // Frame the projection: the bounding sphere would leave much of the picture empty.
-  Vec2 left_top = Vec2::Constant(std::numeric_limits<double>::infinity()), right_bottom = -left_top;
-  for (const auto& face : mesh.faces) {
-    for (const Index v : face) {
-      const Vec3 p = project(mesh.positions[v]);
-      left_top = left_top.cwiseMin(p.head<2>());
-      right_bottom = right_bottom.cwiseMax(p.head<2>());
-    }
-  }
-  // What is seen edge-on is at least framed by its length.
-  const double least = 1e-3 * std::max((right_bottom - left_top).maxCoeff(), 1e-6);
-  const Vec2 size = (right_bottom - left_top).cwiseMax(least);
-  focal_ = options.zoom * kFill * std::min(options.width / size.x(), options.height / size.y());
-  offset_ = Vec2(options.width, options.height) / 2 - focal_ * (left_top + right_bottom) / 2;
-}
-
-Vec3 Camera::view(const Vec3& p) const {
-  const Vec3 d = p - eye_;
-  return {d.dot(right_), d.dot(up_), d.dot(forward_)};
-}
-
-Vec3 Camera::project(const Vec3& p) const {
-  const Vec3 q = view(p);
-  return {offset_.x() + focal_ * q.x() / q.z(), offset_.y() - focal_ * q.y() / q.z(), q.z()};
-}
 
 Vec3 ScreenTriangle::weights(double px, double py) const {
   const double sx = px * kSubpixel, sy = py * kSubpixel;
@@ -114,7 +54,7 @@ ScreenTriangle make_screen_triangle(const std::array<Vec3, 3>& projected,
   return t;
 }
 
-void draw(const ScreenTriangle& t, Index face, RasterBand& band) {
+void draw_face(const ScreenTriangle& t, Index face, RasterBand& band) {
   if (t.twice_area == 0) return;
   constexpr std::int64_t kUnit = ScreenTriangle::kSubpixel, kHalf = kUnit / 2;
   const auto [low_x, high_x] = std::minmax({t.x[0], t.x[1], t.x[2]});

@@ -1,26 +1,13 @@
-// Internal to render: projection of a mesh and watertight rasterisation of its triangles.
+// Watertight rasterisation of triangles with a depth buffer.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
-#include "onmesh/render/render.h"
+#include "onmesh/base/types.h"
 
 namespace onmesh {
-
-/// A camera outside the model's bounding sphere, framed so that the model fills the picture.
-class Camera {
- public:
-  Camera(const TriangleMesh& mesh, const RenderOptions& options);
-  /// x right and y down in pixels, z = distance along the view, > 0.
-  Vec3 project(const Vec3& p) const;
-  const Vec3& eye() const { return eye_; }
-
- private:
-  Vec3 view(const Vec3& p) const;
-  Vec3 eye_, right_, up_, forward_;
-  double focal_ = 1;
-  Vec2 offset_{0, 0};
-};
 
 /// A triangle on the screen in fixed point, counter-clockwise or not. Coordinates are sample
 /// positions times kSubpixel; sample (i, j) is at (i + .5, j + .5).
@@ -37,17 +24,20 @@ struct ScreenTriangle {
   double edge_distance(int k, double px, double py) const;
 };
 
+/// The triangle in fixed point.
+/// \param projected the corners as Camera::project() gives them
 ScreenTriangle make_screen_triangle(const std::array<Vec3, 3>& projected, double samples_per_pixel);
 
 /// Nearest face per sample of the rows [first_row, last_row).
 struct RasterBand {
-  int width = 0, first_row = 0, last_row = 0;
-  std::vector<Index> face;      ///< kNone = background
-  std::vector<double> inverse;  ///< inverse depth
+  int width = 0, first_row = 0, last_row = 0;  ///< samples
+  std::vector<Index> face;                     ///< row by row; kNone = background
+  std::vector<double> inverse;                 ///< inverse depth
 };
 
 /// Draw a face. A sample on an edge belongs to exactly one of the two faces that share it (the
 /// top-left rule on exact integers); at equal depth the face drawn first stays.
-void draw(const ScreenTriangle& triangle, Index face, RasterBand& band);
+/// \pre the band's arrays have an entry per sample
+void draw_face(const ScreenTriangle& triangle, Index face, RasterBand& band);
 
 }  // namespace onmesh

@@ -2,15 +2,17 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
-#include <Eigen/Geometry>
-
 #include "onmesh/base/error.h"
-#include "onmesh/measure/image_difference.h"
+#include "onmesh/base/triangle.h"
+#include "onmesh/image/lookup.h"
+#include "onmesh/render/camera.h"
 #include "onmesh/render/raster.h"
 #include "onmesh/render/texture_view.h"
 
@@ -143,7 +145,7 @@ class Scene {
         std::size_t(band.width) * std::size_t(band.last_row - band.first_row);
     band.face.assign(samples, kNone);
     band.inverse.assign(samples, 0);
-    for (const Index f : bands_[number]) draw(triangles_[f], f, band);
+    for (const Index f : bands_[number]) draw_face(triangles_[f], f, band);
 
     std::vector<float> buffer;
     for (int y = first; y < last; ++y) {
@@ -168,9 +170,7 @@ class Scene {
     const Vec3 b = weights / weights.sum();
     Vec3 colour = surface_colour(f, b, px, py, buffer);
     if (options_.light) {
-      const auto p = mesh_.corners(f);
-      const Vec3 at = b[0] * p[0] + b[1] * p[1] + b[2] * p[2];
-      const Vec3 normal = b[0] * normals_[f][0] + b[1] * normals_[f][1] + b[2] * normals_[f][2];
+      const Vec3 at = interpolate(mesh_.corners(f), b), normal = interpolate(normals_[f], b);
       const double length = normal.norm() * (camera_.eye() - at).norm();
       const double facing = length > 0 ? std::abs(normal.dot(camera_.eye() - at)) / length : 1;
       colour *= 0.4 + 0.6 * facing;
@@ -195,8 +195,7 @@ class Scene {
     if (texture == nullptr && material < colour_.material_textures.size())
       texture = colour_.material_textures[material];
     if (texture == nullptr || !mesh_.has_uvs(f)) return kGrey;
-    const auto uv = mesh_.corner_uvs(f);
-    const Vec2 at = b[0] * uv[0] + b[1] * uv[1] + b[2] * uv[2];
+    const Vec2 at = interpolate(mesh_.corner_uvs(f), b);
     if (!at.allFinite()) return kGrey;
     buffer.resize(std::size_t(texture->channels));
     bilinear(*texture, options_.wrap, at, buffer.data());

@@ -3,12 +3,13 @@
 
 #include <vector>
 
-#include "onmesh/atlas/texel_map.h"
 #include "onmesh/image/image.h"
+#include "onmesh/image/lookup.h"
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {
 
+/// How render() looks at the model.
 struct RenderOptions {
   int width = 800, height = 800;  ///< pixels, [1, 16384]
   double azimuth_degrees = 35;    ///< camera direction around `up`; 0 = from +z (+y up), -y (+z up)
@@ -18,8 +19,8 @@ struct RenderOptions {
   bool light = true;              ///< soft headlight shading; off shows texture values as they are
   bool wireframe = false;         ///< draw the mesh's edges
   Wrap wrap = Wrap::repeat;       ///< what UVs outside [0,1] mean
-  Vec3 background{1, 1, 1};
-  Vec3 up{0, 1, 0};
+  Vec3 background{1, 1, 1};       ///< a colour in [0,1]
+  Vec3 up{0, 1, 0};               ///< a direction of the mesh's space, of any length
 };
 
 /// What colours the surface. The first that is set counts: a scalar per vertex with isolines, flat
@@ -33,16 +34,18 @@ struct RenderColour {
   std::vector<const Image*> material_textures;  ///< per material of the mesh; null = grey
 };
 
-/// Perspective z-buffer rendering with bilinear look-ups and supersampling; 3
-/// channels. Both sides of faces are drawn. Faces without UVs are grey, texture values are clamped
-/// to [0,1], those that are not numbers are magenta. The camera looks at the model from outside,
-/// framed to fit. Adjacent faces leave neither gaps nor double pixels; equal input gives equal
-/// bytes. \throw UsageError for options outside their domain; InputError if the mesh has no faces,
-/// a
-///   position is not finite, or sizes do not match
+/// Perspective z-buffer rendering with bilinear look-ups and supersampling.
+///
+/// Both sides of faces are drawn. Faces without UVs are grey, texture values are clamped to [0,1],
+/// those that are not numbers are magenta. The camera looks at the model from outside, framed to
+/// fit. Adjacent faces leave neither gaps nor double pixels; equal input gives equal bytes.
+/// \return options.width x options.height pixels with 3 channels in [0,1]
+/// \throw UsageError for options outside their domain
+/// \throw InputError if the mesh has no faces, a position is not finite, or sizes do not match
 Image render(const TriangleMesh& mesh, const RenderColour& colour, const RenderOptions& options);
 
 /// The colour map for scalars: even steps of `t` in [0,1] look like even steps of lightness.
+/// \return the encoded colour that a screen shows (sRGB), in [0,1]
 Vec3 colour_map(double t);
 
 }  // namespace onmesh

@@ -20,7 +20,7 @@ Vec3 display_colour(const float* texel, int channels) {
   return colour;
 }
 
-Image flat_picture(const Image& texture, int size, int supersampling) {
+Image view_texture(const Image& texture, int size, int supersampling) {
   if (size < 1 || size > 16384) throw UsageError("view: size must be between 1 and 16384 pixels");
   if (supersampling < 1 || supersampling > 8)
     throw UsageError("view: supersampling must be between 1 and 8");
@@ -55,7 +55,7 @@ Image flat_picture(const Image& texture, int size, int supersampling) {
   return picture;
 }
 
-Image beside(const std::vector<Image>& pictures, int gap) {
+Image side_by_side(const std::vector<Image>& pictures, int gap) {
   int width = 0, height = 0, channels = 3;
   for (const Image& picture : pictures) {
     if (&picture == &pictures.front()) channels = picture.channels;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "onmesh/base/disjoint_sets.h"
 #include "onmesh/distance/cloud/local_triangulation.h"
 #include "onmesh/distance/cloud/tufted_cover.h"
 
@@ -134,29 +135,6 @@ std::vector<LocalTriangle> choose(const PointCloud& points, const std::vector<In
   return chosen;
 }
 
-class Components {
- public:
-  explicit Components(std::size_t nodes) : parent_(nodes) {
-    std::iota(parent_.begin(), parent_.end(), Index(0));
-  }
-  bool joined(const std::array<Index, 3>& corner) {
-    return root(corner[0]) == root(corner[1]) && root(corner[0]) == root(corner[2]);
-  }
-  void join(const std::array<Index, 3>& corner) {
-    for (int k = 1; k < 3; ++k) {
-      const Index a = root(corner[0]), b = root(corner[k]);
-      parent_[std::max(a, b)] = std::min(a, b);
-    }
-  }
-
- private:
-  Index root(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  std::vector<Index> parent_;
-};
-
 }  // namespace
 
 Complex make_complex(const Patch& patch, const NodeGeometry& geometry) {
@@ -165,12 +143,17 @@ Complex make_complex(const Patch& patch, const NodeGeometry& geometry) {
   Patch& out = complex.triangles;
   out.nodes = patch.nodes;
   out.core_nodes = patch.core_nodes;
-  Components components(patch.nodes.size());
+  DisjointSets components(patch.nodes.size());
+  const auto joined = [&](const std::array<Index, 3>& corner) {
+    const Index root = components.find(corner[0]);
+    return root == components.find(corner[1]) && root == components.find(corner[2]);
+  };
   const auto add = [&](const std::array<Index, 3>& corner, const std::array<double, 3>& lengths) {
     if (!has_area(lengths)) return;
     out.corners.push_back(corner);
     out.lengths.push_back(lengths);
-    components.join(corner);
+    components.join(corner[0], corner[1]);
+    components.join(corner[0], corner[2]);
   };
 
   for (const LocalTriangle& t : choose(points, patch.nodes)) {
@@ -180,7 +163,7 @@ Complex make_complex(const Patch& patch, const NodeGeometry& geometry) {
          edge_length(points, c, a, t.turn[2])});
   }
   for (Index f = 0; f < patch.corners.size(); ++f)
-    if (!components.joined(patch.corners[f])) add(patch.corners[f], patch.lengths[f]);
+    if (!joined(patch.corners[f])) add(patch.corners[f], patch.lengths[f]);
   for (const auto& l : out.lengths)
     out.longest_edge = std::max({out.longest_edge, l[0], l[1], l[2]});
   complex.cover = out;

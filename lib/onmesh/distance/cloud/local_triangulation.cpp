@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "onmesh/base/plane.h"
+#include "onmesh/base/triangle.h"
+
 namespace onmesh::cloud {
 namespace {
 
@@ -15,8 +18,6 @@ constexpr double kSameAngle = 1e-7;
 constexpr double kLongestDetour = 1.3;
 // The first ball's radius, and the largest, in distances of the farthest adjacent point.
 constexpr double kFirstBall = 1.25, kLargestBall = 3;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // Of the angle between the sides x and y of a triangle, opposite z.
 double cotangent(double x, double y, double z, double area) {

@@ -8,8 +8,9 @@
 #include <limits>
 #include <string>
 
+#include "onmesh/base/disjoint_sets.h"
 #include "onmesh/base/error.h"
-#include "onmesh/nodes/node_mesh.h"
+#include "onmesh/base/triangle.h"
 #include "onmesh/patches/patch_edges.h"
 
 namespace onmesh::heat {
@@ -56,19 +57,12 @@ Factor factorise(const Matrix& matrix) {
 
 // A number per node of the complex: the least node it is joined to.
 std::vector<Index> find_components(const Patch& patch) {
-  std::vector<Index> parent(patch.nodes.size());
-  for (Index i = 0; i < parent.size(); ++i) parent[i] = i;
-  const auto root = [&](Index i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets nodes(patch.nodes.size());
   for (const auto& c : patch.corners)
-    for (int k = 1; k < 3; ++k) {
-      const Index a = root(c[0]), b = root(c[k]);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  for (Index i = 0; i < parent.size(); ++i) parent[i] = root(i);
-  return parent;
+    for (int k = 1; k < 3; ++k) nodes.join(c[0], c[k]);
+  std::vector<Index> component(patch.nodes.size());
+  for (Index i = 0; i < component.size(); ++i) component[i] = nodes.find(i);
+  return component;
 }
 
 // The largest number of edges from a component's first node to any of its nodes: half a bound of

@@ -1,0 +1,57 @@
+#include "onmesh/filter/node_spacing.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "onmesh/nodes/sizing_field.h"
+
+namespace onmesh {
+namespace {
+
+/// Where the surface is nearly flat, the spacing's square times the Gaussian curvature: at sigma 8
+/// and radius 20 texels distances are off by less than a hundredth of a texel.
+constexpr double kFlatness = 0.0072;
+
+}  // namespace
+
+NodeSpacing node_spacing_for(double sigma, double radius, double texel_size,
+                             bool depends_on_spacing, bool by_nodes) {
+  const double curved = std::max((depends_on_spacing ? 1.0 : 1.5) * sigma,
+                                 (depends_on_spacing || by_nodes ? 4 : 10) * texel_size);
+  const double finest = std::max(sigma / 4, 2 * texel_size);
+  const double flat = depends_on_spacing ? curved : std::clamp(3 * radius, curved, 2 * curved);
+  return {flat, curved, std::min(curved, finest)};
+}
+
+RefineOptions refinement_for(const PreparedMesh& prepared, const WorkingPlan& plan) {
+  RefineOptions options;
+  options.spacing = plan.node_spacing;
+  options.curved = plan.curved_spacing;
+  options.finest = plan.finest_spacing;
+  options.flatness = kFlatness;
+  options.spread = std::numbers::pi * plan.radius * plan.radius;
+  // Near bends the spacing follows sigma, however large it is elsewhere.
+  options.sharpness = std::max(3.0, 2 * plan.curved_spacing / plan.sigma_spatial);
+  options.flat_faces = plan.bridge > 0;
+  options.needed.reserve(prepared.mesh.faces.size());
+  for (const double area : prepared.map.texel_area) options.needed.push_back(area > 0);
+  // Patches reach three edges beyond the radius, from node faces that reach an edge beyond the
+  // texels; some more keep the faces there as small as they are where the spacing is not yet
+  // larger.
+  options.reach = plan.radius + std::max(9 * plan.curved_spacing, 6 * plan.node_spacing);
+  return options;
+}
+
+double estimate_nodes(const TriangleMesh& mesh, const RefineOptions& refinement) {
+  // Twice the area of an equilateral triangle per node; refinement stays somewhat below the
+  // spacing.
+  const Remoteness remoteness(mesh, refinement);
+  double nodes = double(mesh.positions.size());
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    const double spacing = refinement.curved + remoteness({f, Vec3::Constant(1.0 / 3)});
+    nodes += 1.2 * mesh.face_area(f) / (spacing * spacing * std::numbers::sqrt3 / 2);
+  }
+  return nodes;
+}
+
+}  // namespace onmesh

@@ -1,0 +1,78 @@
+// What the filter can be told.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "onmesh/atlas/texel_map.h"
+#include "onmesh/distance/backend.h"
+#include "onmesh/filter/length.h"
+
+namespace onmesh {
+
+enum class FilterKind {
+  bilateral,  ///< weights by distance and by difference of colour: keeps edges
+  gaussian,   ///< weights by distance alone: blurs
+};
+
+/// What is summed over.
+enum class SampleKind {
+  texel,    ///< every texel on the surface once, weighted by its area
+  poisson,  ///< random points of the surface, none close to another
+};
+
+/// How the sums are evaluated.
+enum class FilterMethod {
+  automatic,  ///< on the nodes where that is faster and within the tolerance, else directly
+  direct,     ///< sample by sample
+  nodes,      ///< on the nodes (kernel/splat), at a cost that does not depend on sigma
+};
+
+/// What becomes of texels that several places of the surface claim.
+enum class Overlap {
+  average,  ///< the mean of the places' results, weighted by their areas
+  first,    ///< the result of the face that comes first in the mesh
+  error,    ///< they are refused
+};
+
+/// Values outside the ranges below are refused with an OptionError that names the field.
+struct FilterOptions {
+  FilterKind kind = FilterKind::bilateral;
+  /// Width of the filter on the surface: standard deviation of the spatial weight; > 0.
+  Length sigma_spatial{4, Length::Unit::texel};
+  /// Bilateral only: standard deviation of the range weight, in the texture's value units; > 0.
+  double sigma_range = 0.1;
+  /// How far samples count; > 0. Default: 2.5 sigma_spatial (bilateral) or 3 (Gaussian).
+  std::optional<Length> radius;
+
+  /// How distances are computed; `automatic` = unfold.
+  DistanceMethod distance = DistanceMethod::automatic;
+  /// Components are joined across smaller gaps than this; > 0, not with exact distances. Default:
+  /// none, components do not influence each other.
+  std::optional<Length> bridge;
+  /// Between the nodes of the distance tables; > 0. Default: see node_spacing_for().
+  std::optional<Length> node_spacing;
+
+  FilterMethod method = FilterMethod::automatic;
+  /// Where the nodes are used: most RMS difference to the direct sums, as a share of the texture's
+  /// range of values (largest less smallest); > 0.
+  double tolerance = 1.0 / 512;
+
+  SampleKind samples = SampleKind::texel;
+  /// Poisson only: least distance of samples; > 0. Default: by the size of the texels, so that each
+  /// is hit.
+  std::optional<Length> spacing;
+  /// Poisson only: the same as a multiple of the mesh's mean edge length; > 0, excludes `spacing`.
+  std::optional<double> r_coef;
+  std::uint64_t seed = 1;  ///< of the Poisson samples, any
+
+  Wrap wrap = Wrap::repeat;            ///< how UVs outside [0,1] are read
+  Overlap overlap = Overlap::average;  ///< texels that several places of the surface claim
+  int gutter = 2;                      ///< rings of texels filled around the charts, >= 0
+  /// Per face of the mesh as given: whether it carries the texture. Empty = all faces with UVs.
+  std::vector<bool> faces;
+  int threads = 0;  ///< >= 0; 0 = as many as there are processors
+};
+
+}  // namespace onmesh

@@ -1,0 +1,117 @@
+#include "onmesh/filter/prepare_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "onmesh/base/face_error.h"
+#include "onmesh/base/text.h"
+
+namespace onmesh {
+namespace {
+
+std::string faces_text(Index count) { return count_text(count, "face", "faces"); }
+
+Index count_unused(const TriangleMesh& mesh) {
+  std::vector<bool> used(mesh.positions.size(), false);
+  for (const auto& face : mesh.faces) {
+    for (const Index v : face) used[v] = true;
+  }
+  return static_cast<Index>(std::count(used.begin(), used.end(), false));
+}
+
+/// Tell what cleaning changed, and what the mesh still is.
+void warn_of_cleaning(const TriangleMesh& mesh, const CleanReport& report,
+                      std::vector<std::string>& warnings) {
+  if (const Index dropped = report.collapsed + report.duplicates + report.fins; dropped > 0) {
+    warnings.push_back(faces_text(dropped) +
+                       " dropped: repeated vertices, duplicates of other faces, or fins");
+  }
+  if (report.flat > 0) {
+    warnings.push_back(faces_text(report.flat) + " skipped: parts of the mesh without any area");
+  }
+  if (const Index unused = count_unused(mesh); unused > 0) {
+    warnings.push_back(count_text(unused, "vertex", "vertices") + " skipped: no face uses them");
+  }
+  if (report.separated > 0) {
+    warnings.push_back(faces_text(report.separated) +
+                       " on the same vertices as others, with texels of their own: filtered as "
+                       "sheets of their own");
+  }
+  if (report.flipped > 0) warnings.push_back(faces_text(report.flipped) + " turned over");
+  if (!report.manifold()) {
+    warnings.push_back("the mesh is not manifold: " + report.defects() +
+                       "; it is filtered across them");
+  }
+}
+
+/// Charts beside the image's own tile repeat it, which is meant for tiling textures, but not for
+/// UDIM.
+void warn_of_tiles(const TriangleMesh& mesh, const TexelMap& map,
+                   std::vector<std::string>& warnings) {
+  Index outside = 0;
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    if (map.chart_of_face[f] == kNone) continue;
+    const auto uvs = mesh.corner_uvs(f);
+    const Vec2 centre = (uvs[0] + uvs[1] + uvs[2]) / 3;
+    outside += (centre.array() < 0).any() || (centre.array() > 1).any();
+  }
+  if (outside == 0) return;
+  warnings.push_back(faces_text(outside) +
+                     " with UVs outside [0,1]: the image is repeated there, or cut off with "
+                     "wrap=clamp");
+}
+
+/// `faces` of the mesh as read, for the faces that are left.
+std::vector<bool> faces_left(const std::vector<bool>& faces, const CleanReport& cleaning) {
+  if (faces.empty()) return {};
+  std::vector<bool> left(cleaning.kept.size());
+  for (std::size_t f = 0; f < left.size(); ++f) left[f] = faces[cleaning.kept[f]];
+  return left;
+}
+
+void require_claims(const TriangleMesh& mesh, const TexelMap& map, const std::vector<bool>& faces) {
+  if (!map.claims.empty()) return;
+  if (mesh.faces.empty()) throw InputError("the mesh has no faces to filter on");
+  bool any_uvs = false, any_uv_area = false, any_face = faces.empty();
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    any_uvs = any_uvs || mesh.has_uvs(f);
+    any_uv_area = any_uv_area || (mesh.has_uvs(f) && mesh.uv_area(f) != 0);
+    any_face = any_face || faces[f];
+  }
+  if (!any_uvs) {
+    throw InputError("the mesh has no UVs, so no texture can be filtered on it");
+  }
+  if (!any_uv_area) {
+    throw InputError(
+        "the UVs of no face have any area (each is a spot or a line in the texture), so there is "
+        "nothing to filter");
+  }
+  throw InputError(any_face ? "no texel of the texture lies on a face with area"
+                            : "no face of the mesh carries the texture");
+}
+
+}  // namespace
+
+PreparedMesh prepare_mesh(const TriangleMesh& mesh, const Image& texture,
+                          const FilterOptions& options) {
+  PreparedMesh out;
+  out.mesh = clean(weld(mesh), &out.cleaning);
+  warn_of_cleaning(mesh, out.cleaning, out.warnings);
+  if (options.distance == DistanceMethod::exact && !out.cleaning.manifold()) {
+    throw InputError("distance=exact: the mesh is not manifold (" + out.cleaning.defects() +
+                     "); use unfold");
+  }
+
+  out.unit = std::exp2(std::ceil(std::log2(std::max(out.mesh.diagonal(), 1e-300))));
+  for (Vec3& p : out.mesh.positions) p /= out.unit;
+
+  const std::vector<bool> faces = faces_left(options.faces, out.cleaning);
+  out.map = with_face_numbers(out.cleaning.kept, [&] {
+    return make_texel_map(out.mesh, texture.width, texture.height, {options.wrap, faces});
+  });
+  require_claims(out.mesh, out.map, faces);
+  warn_of_tiles(out.mesh, out.map, out.warnings);
+  return out;
+}
+
+}  // namespace onmesh

@@ -1,0 +1,48 @@
+// From the kernel's results to the image.
+#pragma once
+
+#include <vector>
+
+#include "onmesh/filter/overlap.h"
+#include "onmesh/image/image.h"
+
+namespace onmesh {
+
+/// Smallest and largest value per colour channel of what is filtered, in value units.
+struct ValueRange {
+  std::vector<float> lowest, highest;  ///< infinite where no value is finite
+
+  /// Of all channels: the largest less the smallest value; 1 if all are equal.
+  double extent() const;
+};
+
+/// The range of all values that a texel may end up with: those of the samples, and those of the
+/// targets, which may keep theirs.
+/// \param sources the samples, if others than the covered texels are summed over; else null
+ValueRange value_range(const Image& texture, const TexelMap& map, const Samples* sources);
+
+/// Takes the kernel's results and puts them into the image. Every texel is written by one thread:
+/// those with several claims wait in a list of their own until all are there.
+class Results {
+ public:
+  /// \param image a copy of the texture, to be written
+  /// \param range that results are clamped to, against rounding
+  /// \pre all but range outlive this
+  Results(const OverlapPolicy& overlap, const Samples& targets, ValueRange range, Image& image);
+
+  /// As StoreResults.
+  void store(Index begin, Index end, const float* values);
+  /// Once all are stored: write the texels that have several claims.
+  void merge_shared();
+
+ private:
+  void write(Index texel, const float* values);
+
+  const Samples& targets_;
+  const std::vector<int> channels_;
+  const ValueRange range_;
+  Image& image_;
+  SharedResults shared_;
+};
+
+}  // namespace onmesh

@@ -1,0 +1,30 @@
+// The filter's stages: their times for the report, their progress for the user.
+#pragma once
+
+#include <chrono>
+
+#include "onmesh/base/progress.h"
+#include "onmesh/filter/report.h"
+
+namespace onmesh {
+
+/// Notes the time between begin() and end() as a stage of the report, and announces stages to the
+/// user. One at a time.
+class Stages {
+ public:
+  /// \pre report and progress outlive this
+  Stages(FilterReport& report, const Progress& progress) : report_(report), progress_(progress) {}
+
+  void begin(const char* stage);
+  /// \param done share of the stage, 0 to 1
+  void advance(double done) const;
+  void end();
+
+ private:
+  FilterReport& report_;
+  const Progress& progress_;
+  const char* stage_ = "";
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace onmesh

@@ -1,0 +1,50 @@
+// An image file opened for reading, some rows at a time (internal: included by the image sources
+// only).
+#pragma once
+
+#include <OpenImageIO/imageio.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "onmesh/image/native_pixels.h"
+
+namespace onmesh {
+
+/// An image file opened for reading, its header checked against the limits.
+class ImageReader {
+ public:
+  /// \throw FileError as read_image()
+  /// \throw InputError as read_image()
+  explicit ImageReader(const std::filesystem::path& path);
+  ~ImageReader();
+
+  const OIIO::ImageSpec& spec() const { return spec_; }
+  /// OpenImageIO's name of the format: "png", "openexr", ...
+  const std::string& format() const { return format_; }
+  /// The type of every channel.
+  const std::vector<SampleType>& types() const { return types_; }
+
+  /// Hand over all rows from the top, some at a time.
+  ///
+  /// \param take called with native pixels, the first row and the number of rows
+  /// \throw InputError if the file ends early or is damaged
+  void read(const std::function<void(std::span<const std::byte>, int, int)>& take);
+
+ private:
+  std::filesystem::path path_;
+  std::unique_ptr<OIIO::ImageInput> input_;
+  OIIO::ImageSpec spec_;
+  std::string format_;
+  std::vector<SampleType> types_;
+};
+
+/// Rows to read or write at a time: whole rows of tiles.
+int rows_at_a_time(const OIIO::ImageSpec& spec);
+
+}  // namespace onmesh

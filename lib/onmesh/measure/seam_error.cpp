@@ -1,0 +1,82 @@
+#include "onmesh/measure/seam_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "onmesh/atlas/unfolded_walk.h"
+#include "onmesh/base/error.h"
+#include "onmesh/base/parallel.h"
+
+namespace onmesh {
+namespace {
+
+/// A seam edge: edge face % 3 of one face and edge other % 3 of the other, and its error.
+struct Seam {
+  Index face, other;  ///< 3 * face + edge
+  double length = 0, mean_square = 0, max = 0;
+};
+
+std::vector<Seam> find_seams(const TriangleMesh& mesh, const TexelMap& map) {
+  const UnfoldedWalk walk(mesh, map);
+  std::vector<Seam> seams;
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const Index other = walk.across(f, k);
+      if (other == kNone || walk.across_in_chart(f, k) == other) continue;
+      // Once, unless the surface branches and the way back leads elsewhere.
+      const bool mutual = walk.across(other / 3, int(other % 3)) == 3 * f + Index(k);
+      if (mutual && other / 3 < f) continue;
+      if (map.chart_of_face[f] == kNone || map.chart_of_face[other / 3] == kNone) continue;
+      seams.push_back({3 * f + Index(k), other});
+    }
+  }
+  return seams;
+}
+
+/// Fill in the seam's length and error.
+void measure(const TriangleMesh& mesh, const Image& image, Wrap wrap, Seam& seam) {
+  const Index f = seam.face / 3, g = seam.other / 3;
+  const std::size_t a = seam.face % 3, b = (a + 1) % 3, c = seam.other % 3, d = (c + 1) % 3;
+  const bool opposed = mesh.faces[f][a] == mesh.faces[g][d];
+  const auto u = mesh.corner_uvs(f), v = mesh.corner_uvs(g);
+  const Vec2 u0 = u[a], u1 = u[b], v0 = v[opposed ? d : c], v1 = v[opposed ? c : d];
+  seam.length = (mesh.positions[mesh.faces[f][b]] - mesh.positions[mesh.faces[f][a]]).norm();
+  const Vec2 size(image.width, image.height);
+  const double pixels =
+      std::max((u1 - u0).cwiseProduct(size).norm(), (v1 - v0).cwiseProduct(size).norm());
+  const int points = int(std::ceil(std::min(2 * pixels, 1e6))) + 1;
+  const auto channels = std::size_t(image.channels);
+  std::vector<float> one(channels), two(channels);
+  for (int p = 0; p < points; ++p) {
+    const double t = points > 1 ? p / (points - 1.0) : 0.5;
+    bilinear(image, wrap, (1 - t) * u0 + t * u1, one.data());
+    bilinear(image, wrap, (1 - t) * v0 + t * v1, two.data());
+    for (std::size_t ch = 0; ch < channels; ++ch) {
+      if (one[ch] == two[ch] || !std::isfinite(one[ch]) || !std::isfinite(two[ch])) continue;
+      const double e = std::abs(double(one[ch]) - double(two[ch]));
+      seam.mean_square += e * e / (double(points) * double(channels));
+      seam.max = std::max(seam.max, e);
+    }
+  }
+}
+
+}  // namespace
+
+SeamError seam_error(const TriangleMesh& mesh, const TexelMap& map, const Image& image) {
+  if (map.width != image.width || map.height != image.height)
+    throw InputError("the texel map is not of the image's size");
+  std::vector<Seam> seams = find_seams(mesh, map);
+  parallel_over(seams.size(), [&](std::size_t i) { measure(mesh, image, map.wrap, seams[i]); });
+  SeamError result;
+  double squares = 0;
+  for (const Seam& seam : seams) {
+    squares += seam.length * seam.mean_square;
+    result.length += seam.length;
+    result.max = std::max(result.max, seam.max);
+  }
+  result.edges = Index(seams.size());
+  if (result.length > 0) result.rms = std::sqrt(squares / result.length);
+  return result;
+}
+
+}  // namespace onmesh

@@ -1,0 +1,104 @@
+// The values in the body of a PLY file, one after the other: text or binary.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "onmesh/base/byte_order.h"
+#include "onmesh/base/error.h"
+#include "onmesh/base/text_scan.h"
+#include "onmesh/mesh_io/ply_header.h"
+
+namespace onmesh {
+
+/// Values of a text body.
+class PlyTextValues {
+ public:
+  /// \param content the whole file, which must outlive this
+  PlyTextValues(const std::string& content, const PlyHeader& header, const std::string& file)
+      : scan_(std::string_view(content).substr(header.size), file, Syntax::plain) {
+    scan_.set_line(header.lines + 1);
+  }
+
+  /// The next value, of any type.
+  /// \throw InputError naming file and line if there is none or it is no number
+  double next(PlyType) {
+    const std::string_view token = scan_.token_anywhere();
+    if (token.empty()) scan_.fail("file ends before all its elements");
+    return scan_.number(token, "value");
+  }
+
+  /// Whether `count` elements may be left in the file, of so many values and, if binary, at least
+  /// so many bytes each: a value takes a character and a blank at least.
+  bool can_hold(std::uint64_t count, std::size_t values, std::size_t /*bytes*/) const {
+    return values == 0 || count <= (scan_.remaining() + 1) / (2 * values);
+  }
+
+  /// \throw InputError naming file and line
+  [[noreturn]] void fail(const std::string& what) const { scan_.fail(what); }
+
+ private:
+  TextScan scan_;
+};
+
+/// Values of a binary body.
+class PlyBinaryValues {
+ public:
+  /// \param content the whole file, which must outlive this
+  PlyBinaryValues(const std::string& content, const PlyHeader& header, const std::string& file)
+      : at_(content.data() + header.size),
+        end_(content.data() + content.size()),
+        order_(header.format == PlyFormat::little ? std::endian::little : std::endian::big),
+        file_(file) {}
+
+  /// The next value, which is of this type.
+  /// \throw InputError naming the file if there is none
+  double next(PlyType type) {
+    switch (type) {
+      case PlyType::i8:
+        return static_cast<double>(read<std::int8_t>());
+      case PlyType::u8:
+        return static_cast<double>(read<std::uint8_t>());
+      case PlyType::i16:
+        return static_cast<double>(read<std::int16_t>());
+      case PlyType::u16:
+        return static_cast<double>(read<std::uint16_t>());
+      case PlyType::i32:
+        return static_cast<double>(read<std::int32_t>());
+      case PlyType::u32:
+        return static_cast<double>(read<std::uint32_t>());
+      case PlyType::f32:
+        return static_cast<double>(read<float>());
+      case PlyType::f64:
+        break;
+    }
+    return read<double>();
+  }
+
+  /// Whether `count` elements may be left in the file, of at least so many bytes each.
+  bool can_hold(std::uint64_t count, std::size_t /*values*/, std::size_t bytes) const {
+    return bytes == 0 || count <= static_cast<std::size_t>(end_ - at_) / bytes;
+  }
+
+  /// \throw InputError naming the file
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(file_ + ": " + what); }
+
+ private:
+  template <class T>
+  T read() {
+    if (static_cast<std::size_t>(end_ - at_) < sizeof(T)) fail("file ends before all its elements");
+    const T value = from_bytes<T>(at_, order_);
+    at_ += sizeof(T);
+    return value;
+  }
+
+  const char* at_;
+  const char* end_;
+  std::endian order_;
+  std::string file_;
+};
+
+}  // namespace onmesh

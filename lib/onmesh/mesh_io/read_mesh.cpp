@@ -1,0 +1,96 @@
+#include "onmesh/mesh_io/read_mesh.h"
+
+#include <array>
+#include <bit>
+#include <cctype>
+#include <optional>
+
+#include "onmesh/base/byte_order.h"
+#include "onmesh/base/error.h"
+#include "onmesh/base/file_io.h"
+#include "onmesh/base/text_scan.h"
+#include "onmesh/mesh_io/read_obj.h"
+#include "onmesh/mesh_io/read_off.h"
+#include "onmesh/mesh_io/read_ply.h"
+#include "onmesh/mesh_io/read_stl.h"
+
+namespace onmesh {
+namespace fs = std::filesystem;
+namespace {
+
+enum class MeshFormat { obj, ply, off, stl };
+
+std::optional<MeshFormat> format_of_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension == ".obj") return MeshFormat::obj;
+  if (extension == ".ply") return MeshFormat::ply;
+  if (extension == ".off") return MeshFormat::off;
+  if (extension == ".stl") return MeshFormat::stl;
+  return std::nullopt;
+}
+
+bool is_binary_stl(const std::string& content) {
+  if (content.size() < 84) return false;
+  const std::uint64_t facets = from_bytes<std::uint32_t>(content.data() + 80, std::endian::little);
+  return facets > 0 && content.size() == 84 + 50 * facets;
+}
+
+/// What the content is, if it says so beyond doubt.
+std::optional<MeshFormat> format_of_content(const std::string& content) {
+  if (is_binary_stl(content)) return MeshFormat::stl;
+  TextScan scan(content, {}, Syntax::comments);
+  const std::string_view first = scan.token_anywhere();
+  if (first == "ply") return MeshFormat::ply;
+  if (content.find('\0') != std::string::npos) return std::nullopt;
+  for (const std::string_view prefix : {"", "C", "N", "CN", "ST", "STC", "STN", "STCN"}) {
+    if (first.starts_with(std::string(prefix) + "OFF")) return MeshFormat::off;
+  }
+  if (first == "solid") {
+    scan.next_line();
+    const std::string_view second = scan.token_anywhere();
+    if (second == "facet" || second == "endsolid") return MeshFormat::stl;
+  }
+  // A line "v x y z" within the first lines makes an OBJ.
+  TextScan lines(content, {}, Syntax::comments_continuations);
+  for (; lines.line() < 10'000 && !lines.at_end(); lines.next_line()) {
+    if (lines.token() != "v") continue;
+    double value = 0;
+    for (int i = 0; i < 3; ++i) {
+      if (!parse_number(lines.token(), value)) return std::nullopt;
+    }
+    return MeshFormat::obj;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+TriangleMesh read_mesh(const fs::path& path, std::vector<std::string>* warnings) {
+  const std::string content = read_file(path);
+  if (content.empty()) throw InputError(path.string() + ": is empty");
+  const auto expected = format_of_extension(path);
+  const auto found = format_of_content(content);
+  if (!expected && !found) {
+    throw InputError(path.string() + ": is no mesh that can be read (OBJ, PLY, OFF or STL)");
+  }
+  const MeshFormat format = found.value_or(expected.value_or(MeshFormat::obj));
+  if (expected && format != *expected && warnings) {
+    constexpr std::array<const char*, 4> names = {"OBJ", "PLY", "OFF", "STL"};
+    warnings->push_back(path.string() + ": is read as " + names[static_cast<std::size_t>(format)] +
+                        ", which it holds in spite of its name");
+  }
+  switch (format) {
+    case MeshFormat::obj:
+      return read_obj(path, content, warnings);
+    case MeshFormat::ply:
+      return read_ply(path, content, warnings);
+    case MeshFormat::off:
+      return read_off(path, content, warnings);
+    case MeshFormat::stl:
+      break;
+  }
+  return read_stl(path, content, warnings);
+}
+
+}  // namespace onmesh

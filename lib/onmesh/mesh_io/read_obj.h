@@ -1,0 +1,20 @@
+// Wavefront OBJ with its material files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "onmesh/mesh/triangle_mesh.h"
+
+namespace onmesh {
+
+/// Read an OBJ and the material files that it names, which are looked for beside it.
+/// \param path of the file, for messages and to find the files that it names
+/// \param content the whole of it
+/// \param warnings if given, receives one line per thing that was ignored or repaired
+/// \throw InputError naming the file and what is wrong with it
+TriangleMesh read_obj(const std::filesystem::path& path, const std::string& content,
+                      std::vector<std::string>* warnings);
+
+}  // namespace onmesh

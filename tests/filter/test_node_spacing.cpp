@@ -1,0 +1,50 @@
+#include "onmesh/filter/node_spacing.h"
+
+#include <catch2/catch.hpp>
+
+#include "onmesh/procedural/shapes.h"
+
+namespace onmesh {
+namespace {
+
+TEST_CASE("nodes follow sigma where texels are small, and texels where sigma is", "[spacing]") {
+  // Texels of no size to speak of.
+  const NodeSpacing wide = node_spacing_for(2, 5, 1e-9, false, false);
+  CHECK(wide.curved == Approx(1.5 * 2));
+  CHECK(wide.flat == Approx(2 * wide.curved));
+  CHECK(wide.finest == Approx(2.0 / 4));
+  // A sigma of no size to speak of.
+  const NodeSpacing narrow = node_spacing_for(1e-9, 2.5e-9, 1, false, false);
+  CHECK(narrow.curved == 10);
+  CHECK(narrow.flat == 10);
+  CHECK(narrow.finest == 2);
+  // Sums on the nodes need them closer.
+  CHECK(node_spacing_for(1e-9, 2.5e-9, 1, false, true).curved == 4);
+  // Distances that depend on the spacing.
+  const NodeSpacing close = node_spacing_for(2, 6, 1e-9, true, false);
+  CHECK(close.curved == 2);
+  CHECK(close.flat == 2);
+}
+
+TEST_CASE("nodes are wanted only where texels are", "[spacing]") {
+  const TriangleMesh mesh = make_plane(8, 8);
+  FilterOptions options;
+  options.faces.assign(mesh.faces.size(), false);
+  options.faces[0] = true;
+  const PreparedMesh some = prepare_mesh(mesh, make_image(64, 64, 1), options);
+  const PreparedMesh all = prepare_mesh(mesh, make_image(64, 64, 1), {});
+  WorkingPlan plan;
+  plan.sigma_spatial = plan.curved_spacing = plan.finest_spacing = plan.node_spacing = 0.01;
+  plan.radius = 0.025;
+  const RefineOptions few = refinement_for(some, plan), many = refinement_for(all, plan);
+  CHECK(few.needed[0]);
+  CHECK_FALSE(few.needed[1]);
+  CHECK(few.reach == many.reach);
+  CHECK_FALSE(few.flat_faces);
+  CHECK(estimate_nodes(some.mesh, few) < 0.5 * estimate_nodes(all.mesh, many));
+  plan.bridge = 0.1;
+  CHECK(refinement_for(all, plan).flat_faces);
+}
+
+}  // namespace
+}  // namespace onmesh

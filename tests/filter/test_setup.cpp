@@ -1,0 +1,70 @@
+#include "onmesh/filter/setup.h"
+
+#include <catch2/catch.hpp>
+
+#include "onmesh/base/error.h"
+#include "onmesh/filter/filter.h"
+#include "onmesh/procedural/shapes.h"
+#include "onmesh/procedural/texture.h"
+
+namespace onmesh {
+namespace {
+
+FilterOptions options_for(SampleKind samples) {
+  FilterOptions options;
+  options.sigma_spatial = {6, Length::Unit::texel};
+  options.sigma_range = 0.2;
+  options.samples = samples;
+  return options;
+}
+
+TEST_CASE("the plan tells what the filter then does", "[setup][filter]") {
+  const TriangleMesh mesh = make_torus(32, 16);
+  const Image texture = make_texture(256, 128, Pattern::checker, 0.3, 7, 3);
+  FilterOptions options = options_for(GENERATE(SampleKind::texel, SampleKind::poisson));
+  if (options.samples == SampleKind::poisson && GENERATE(true, false)) {
+    options.spacing = Length{1.5, Length::Unit::texel};
+  }
+  const FilterPlan plan = plan_filter(mesh, texture, options);
+  FilterReport report;
+  filter(mesh, texture, options, &report);
+  CHECK(plan.texels == report.texels);
+  CHECK(plan.overlapped == report.overlapped);
+  CHECK(plan.sigma_spatial == report.sigma_spatial);
+  CHECK(plan.radius == report.radius);
+  CHECK(plan.node_spacing == report.node_spacing);
+  CHECK(plan.sample_spacing == report.sample_spacing);
+  CHECK(plan.texel_size == report.texel_size);
+  CHECK(plan.warnings == report.warnings);
+  CAPTURE(plan.samples, report.samples, plan.nodes, report.nodes);
+  CHECK(double(plan.samples) == Approx(double(report.samples)).epsilon(0.05));
+  CHECK(double(plan.nodes) == Approx(double(report.nodes)).epsilon(0.25));
+  CHECK(report.pairs > 200 * report.texels);
+  CHECK(report.stages.size() == 5);
+}
+
+TEST_CASE("spacings are set for Poisson samples alone", "[setup]") {
+  const TriangleMesh mesh = make_cube();
+  const Image texture = make_image(96, 72, 3);
+  const FilterSetup texel = set_up_filter(mesh, texture, options_for(SampleKind::texel));
+  CHECK_FALSE(texel.graded);
+  CHECK(texel.lengths.sample_spacing == 0);
+  CHECK(texel.mesh_plan.samples == texel.mesh_plan.texels);
+  FilterOptions options = options_for(SampleKind::poisson);
+  CHECK(set_up_filter(mesh, texture, options).graded);
+  options.r_coef = 0.01;
+  const FilterSetup poisson = set_up_filter(mesh, texture, options);
+  CHECK_FALSE(poisson.graded);
+  CHECK(poisson.mesh_plan.sample_spacing == Approx(0.01 * mesh.mean_edge_length()));
+  CHECK(poisson.mesh_plan.largest_sample_spacing == poisson.mesh_plan.sample_spacing);
+}
+
+TEST_CASE("a texture of nothing but alpha is refused", "[setup]") {
+  Image texture = make_image(8, 8, 1);
+  texture.alpha_channel = 0;
+  CHECK_THROWS_WITH(plan_filter(make_plane(1, 1), texture, {}),
+                    "the texture has no channel but alpha: nothing to filter");
+}
+
+}  // namespace
+}  // namespace onmesh

@@ -1,0 +1,51 @@
+#include "onmesh/mesh_io/write_obj.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "onmesh/mesh_io/read_mesh.h"
+#include "support/temp_folder.h"
+
+using namespace onmesh;
+
+TEST_CASE("a written OBJ reads back bit for bit", "[write_obj]") {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder.path() / "tex");
+  folder.file("tex/a b.png", "");
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> uniform(-10, 10);
+  TriangleMesh mesh;
+  for (int i = 0; i < 300; ++i) {
+    mesh.positions.emplace_back(uniform(random), uniform(random) * 1e-200, uniform(random) * 1e100);
+    mesh.uvs.emplace_back(uniform(random), 1 / uniform(random));
+  }
+  mesh.positions[0] = {-0.0, 5e-324, 1.7976931348623157e308};
+  mesh.materials = {
+      {"a b", (folder.path() / "tex/a b.png").string()}, {"", ""}, {"a b", ""}, {" c\nd ", ""}};
+  for (Index i = 0; i < 298; ++i) {
+    mesh.faces.push_back({i, i + 1, i + 2});
+    mesh.face_uvs.push_back({i + 2, i % 5 == 0 ? kNone : i, i + 1});
+    mesh.face_materials.push_back(i < 4 ? i : i % 7 == 0 ? kNone : i % 3);
+  }
+  const auto path = folder.path() / "out.obj";
+  write_obj(path, mesh);
+  std::vector<std::string> warnings;
+  const TriangleMesh back = read_mesh(path, &warnings);
+  CHECK(warnings.empty());
+  REQUIRE(back.positions.size() == mesh.positions.size());
+  for (std::size_t i = 0; i < 300; ++i) {
+    for (int k = 0; k < 3; ++k)
+      CHECK(std::signbit(back.positions[i][k]) == std::signbit(mesh.positions[i][k]));
+  }
+  CHECK(back.positions == mesh.positions);
+  CHECK(back.uvs == mesh.uvs);
+  CHECK(back.faces == mesh.faces);
+  CHECK(back.face_uvs == mesh.face_uvs);
+  CHECK(back.face_materials == mesh.face_materials);
+  REQUIRE(back.materials.size() == 4);
+  CHECK(back.materials[0].texture == mesh.materials[0].texture);
+  CHECK(back.materials[2].texture.empty());
+  // Nothing but the two files is left.
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 3);
+}

@@ -1,0 +1,58 @@
+// What compare measures.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "onmesh/image/image.h"
+#include "tools/tool_checks.h"
+
+using namespace onmesh;
+using Catch::Contains;
+
+TEST_CASE("compare finds the worst texel and fails below the asked PSNR", "[tools][compare]") {
+  const Workspace space;
+  Image a = make_image(8, 4, 3), b = a;
+  b.texel(2 * 8 + 5)[1] = 0.5F;
+  write_image(space / "a.exr", a);
+  write_image(space / "b.exr", b);
+  const double psnr = -10 * std::log10(0.25 / (8 * 4 * 3));
+  const auto json = space.must("compare a.exr b.exr --json --fail 20").json();
+  CHECK(json["psnr"].get<double>() == Approx(psnr));
+  CHECK(json["max"] == 0.5);
+  CHECK(json["worst_texel"] == nlohmann::json{5, 2});
+  CHECK(json["texels"] == 32);
+  CHECK(json["passed"] == true);
+  CHECK_THAT(space.must("compare a.exr b.exr").out, Contains("column 5, row 2"));
+
+  const Run failed = space.run("compare a.exr b.exr --fail 60 --json");
+  CHECK(failed.code == 1);
+  CHECK(failed.json()["passed"] == false);
+  CHECK_THAT(failed.err, Contains("below --fail 60"));
+
+  const auto equal = space.must("compare a.exr a.exr --fail 100 --json").json();
+  CHECK(equal["equal"] == true);
+  CHECK(equal["psnr"].is_null());  // infinite
+  write_image(space / "wide.exr", make_image(9, 4, 3));
+  const Run wide = space.run("compare a.exr wide.exr");
+  CHECK(wide.code == 3);
+  CHECK_THAT(wide.err, Contains("wide.exr") && Contains("a.exr"));
+}
+
+TEST_CASE("compare with a mesh looks at covered texels and seams only", "[tools][compare]") {
+  const Workspace space;
+  space.must("make-mesh cube -o m.obj -t a.png --size 64");
+  Image b = read_image(space / "a.png");
+  const auto map = space.must("map m.obj -t a.png -o map.exr --json").json();
+  const Image where = read_image(space / "map.exr");
+  const int coverage = channel(where, "coverage");
+  Index outside = 0;
+  while (where.texel(outside)[coverage] != 0) ++outside;
+  b.texel(outside)[0] = b.texel(outside)[0] > 0.5F ? 0.0F : 1.0F;
+  write_image(space / "b.png", b);
+  CHECK(space.run("compare a.png b.png --fail 90").code == 1);
+  const auto json = space.must("compare a.png b.png --mesh m.obj --fail 90 --json").json();
+  CHECK(json["equal"] == true);
+  CHECK(json["texels"] == map["covered"]);
+  CHECK(json["seams_a"]["edges"].get<int>() > 0);
+  CHECK(json["seams_a"] == json["seams_b"]);
+}

@@ -1,0 +1,36 @@
+// What onmesh info finds out about a mesh, its atlas and its textures.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "onmesh/measure/image_difference.h"
+#include "onmesh/measure/mesh_report.h"
+#include "shared_options.h"
+
+namespace onmesh::tools {
+
+/// What the atlas means at one texture's size.
+struct TextureFacts {
+  std::string path;     ///< empty for --resolution
+  std::string trouble;  ///< why there is nothing else to tell
+  int width = 0, height = 0, channels = 0;
+  std::uint64_t covered = 0, touched = 0, overlapped = 0, crowded = 0;  ///< texels
+  double texel_size = 0;                                                ///< median, mesh units
+  std::optional<SeamError> seams;
+};
+
+/// The findings on one mesh file.
+struct Findings {
+  MeshReport mesh;
+  std::vector<TextureFacts> textures;
+  std::vector<std::string> advice;
+  std::vector<std::string> problems;  ///< short fixed names of what --strict minds
+  std::string refusal;                ///< why filter will not take it; empty if it will
+};
+
+Findings examine(const InputMesh& input, const Arguments& arguments);
+
+}  // namespace onmesh::tools
