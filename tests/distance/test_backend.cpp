@@ -12,6 +12,7 @@
 #include "onmesh/distance/unfold.h"
 #include "onmesh/patches/grow_patch.h"
 #include "support/distance_errors.h"
+#include "support/mesh_parts.h"
 #include "support/pages.h"
 #include "support/simple_shapes.h"
 
@@ -203,13 +204,9 @@ TEST_CASE("distances are symmetric and zero from a node to itself", "[distance]"
 }
 
 TEST_CASE("separate components are out of reach of each other", "[distance]") {
-  TriangleMesh mesh = plane(6, 6, 1, 1);
-  const Index half = Index(mesh.positions.size()), half_faces = Index(mesh.faces.size());
-  for (Index i = 0; i < half; ++i) mesh.positions.push_back(mesh.positions[i] + Vec3(0, 0, 1e-3));
-  for (Index f = 0; f < half_faces; ++f) {
-    const auto c = mesh.faces[f];
-    mesh.faces.push_back({c[0] + half, c[1] + half, c[2] + half});
-  }
+  const TriangleMesh sheet = plane(6, 6, 1, 1);
+  const TriangleMesh mesh = side_by_side(sheet, sheet, {0, 0, 1e-3});
+  const auto half = Index(sheet.positions.size()), half_faces = Index(sheet.faces.size());
   const NodeMesh nodes = make_node_mesh(mesh);
   const Patch patch = whole(nodes);
   for (const auto& backend : {make_unfold(), make_heat(), make_exact(mesh, nodes)}) {

@@ -1,4 +1,5 @@
 // Exact distances up to a radius, and the closed forms that tests take for true.
+#include "onmesh/distance/exact.h"
 #include "onmesh/measure/nearby_geodesics.h"
 
 #include <algorithm>

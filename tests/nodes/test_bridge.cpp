@@ -13,25 +13,17 @@
 #include "onmesh/procedural/shapes.h"
 #include "support/closed_forms.h"
 #include "support/filter_error.h"
+#include "support/mesh_parts.h"
 
 namespace onmesh {
 namespace {
 
 /// Two coplanar squares, `gap` apart in x, with n segments a side; UVs are positions over 2 + gap.
 TriangleMesh two_squares(double gap, int n = 1) {
-  TriangleMesh mesh = make_plane(n, n);
-  const auto vertices = Index(mesh.positions.size());
-  const std::size_t faces = mesh.faces.size();
-  for (Index v = 0; v < vertices; ++v)
-    mesh.positions.push_back(mesh.positions[v] + Vec3(1 + gap, 0, 0));
+  const TriangleMesh square = make_plane(n, n);
+  TriangleMesh mesh = side_by_side(square, square, {1 + gap, 0, 0});
   mesh.uvs.clear();
   for (const Vec3& p : mesh.positions) mesh.uvs.emplace_back(p.x() / (2 + gap), p.y());
-  for (std::size_t f = 0; f < faces; ++f) {
-    auto face = mesh.faces[f];
-    for (Index& v : face) v += vertices;
-    mesh.faces.push_back(face);
-    mesh.face_materials.push_back(kNone);
-  }
   mesh.face_uvs = mesh.faces;
   return mesh;
 }
@@ -131,18 +123,8 @@ TEST_CASE("heat and cloud go over bridges as straight as they go on the surface"
 
 TEST_CASE("a part farther away than the width stays apart, whatever is bridged beside it",
           "[bridge][cloud]") {
-  TriangleMesh mesh = two_squares(0.02, 2);
-  const auto vertices = Index(mesh.positions.size());
-  const std::size_t faces = mesh.faces.size();
-  for (Index v = 0; v < vertices; ++v)
-    mesh.positions.push_back(mesh.positions[v] + Vec3(0, 0, 0.07));
-  for (std::size_t f = 0; f < faces; ++f) {
-    auto face = mesh.faces[f];
-    for (Index& v : face) v += vertices;
-    mesh.faces.push_back(face);
-    mesh.face_uvs.push_back(mesh.face_uvs[f]);
-    mesh.face_materials.push_back(kNone);
-  }
+  const TriangleMesh pair = two_squares(0.02, 2);
+  const TriangleMesh mesh = side_by_side(pair, pair, {0, 0, 0.07});
   NodeSurface surface = refined(mesh, 0.1);
   REQUIRE(add_bridges(mesh, 0.06, surface) > 10);
   const auto method = GENERATE(DistanceMethod::unfold, DistanceMethod::heat, DistanceMethod::cloud);

@@ -2,12 +2,12 @@
 
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <random>
 
 #include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/nodes/half_edge_mesh.h"
 #include "onmesh/nodes/refine.h"
 #include "onmesh/procedural/shapes.h"
+#include "support/mesh_parts.h"
 #include "support/paths.h"
 #include "support/small_meshes.h"
 
@@ -15,24 +15,12 @@ using namespace onmesh;
 
 namespace {
 
-SurfacePoint random_point(const TriangleMesh& mesh, std::mt19937& random) {
-  std::uniform_real_distribution<double> unit(0, 1);
-  double a = unit(random), b = unit(random);
-  if (a + b > 1) {
-    a = 1 - a;
-    b = 1 - b;
-  }
-  return {static_cast<Index>(random() % mesh.faces.size()), Vec3(1 - a - b, a, b)};
-}
-
 double worst_round_trip(const TriangleMesh& mesh, bool flipped) {
   IntrinsicTriangulation t(make_half_edges(mesh), Index(mesh.positions.size()));
   if (flipped) t.flip_to_delaunay();
   const Overlay overlay = make_overlay(t);
-  std::mt19937 random(1);
   double worst = 0;
-  for (int i = 0; i < 5000; ++i) {
-    const SurfacePoint p = random_point(mesh, random);
+  for (const SurfacePoint& p : random_points(mesh, 5000, 1)) {
     const SurfacePoint back = t.on_input(overlay.locate(p));
     worst = std::max(worst, (mesh.position(back) - mesh.position(p)).norm());
   }
@@ -63,9 +51,7 @@ TEST_CASE("no point falls between the pieces of an overlay", "[overlay]") {
     RefineOptions options;
     options.spacing = 0.13;
     const NodeSurface surface = refine_manifold(mesh, options);
-    std::mt19937 random(2);
-    for (int i = 0; i < 5000; ++i) {
-      const SurfacePoint p = random_point(mesh, random);
+    for (const SurfacePoint& p : random_points(mesh, 5000, 2)) {
       double best = -1;
       for (Index k = surface.overlay.face_offsets[p.face];
            k < surface.overlay.face_offsets[p.face + 1]; ++k) {

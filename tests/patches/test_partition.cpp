@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "support/mesh_parts.h"
 #include "support/pages.h"
 #include "support/simple_shapes.h"
 
@@ -68,13 +69,8 @@ TEST_CASE("partition groups are compact", "[partition]") {
 }
 
 TEST_CASE("components and heavy faces stay groups of their own", "[partition]") {
-  TriangleMesh two = plane(2, 2, 1, 1);
-  const TriangleMesh other = plane(3, 1, 1, 1);
-  const Index offset = Index(two.positions.size());
-  for (const Vec3& p : other.positions) two.positions.push_back(p + Vec3(0, 0, 5));
-  for (const auto& f : other.faces)
-    two.faces.push_back({f[0] + offset, f[1] + offset, f[2] + offset});
-  const NodeMesh mesh = make_node_mesh(two);
+  const NodeMesh mesh =
+      make_node_mesh(side_by_side(plane(2, 2, 1, 1), plane(3, 1, 1, 1), {0, 0, 5}));
   CHECK(partition_faces(mesh, ones(mesh), 100).size() == 2);
   CHECK(partition_faces(mesh, std::vector<double>(mesh.faces.size(), 50), 10).size() ==
         mesh.faces.size());

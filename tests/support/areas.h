@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "onmesh/base/triangle.h"
 #include "onmesh/mesh/triangle_mesh.h"
 #include "onmesh/nodes/node_mesh.h"
 #include "onmesh/patches/patch.h"

@@ -20,7 +20,9 @@ class OptionError : public UsageError {
   /// \param problem what is wrong with it: "must be positive and finite"
   OptionError(const std::string& option, const std::string& problem)
       : UsageError(option + ": " + problem), option_(option), problem_(problem) {}
+  /// The field, as given.
   const std::string& option() const { return option_; }
+  /// What is wrong with it, as given.
   const std::string& problem() const { return problem_; }
 
  private:

@@ -17,7 +17,9 @@ class FaceError : public Error {
   /// \param face its number in the mesh at hand, from 0
   FaceError(Index face, const std::string& problem)
       : Error("face " + std::to_string(face) + ": " + problem), face_(face), problem_(problem) {}
+  /// The face, as given.
   Index face() const { return face_; }
+  /// What is wrong with it, as given.
   const std::string& problem() const { return problem_; }
 
  private:

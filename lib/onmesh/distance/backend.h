@@ -25,6 +25,7 @@ DistanceMethod distance_method(std::string_view name);
 class DistanceBackend {
  public:
   virtual ~DistanceBackend() = default;
+  /// As users write it: "unfold".
   virtual std::string_view name() const = 0;
   /// How far beyond `reach` the patch must extend for this back end to be right up to `reach`.
   /// \param longest_edge of the patch

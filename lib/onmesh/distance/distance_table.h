@@ -16,8 +16,10 @@ inline constexpr float kUnreachable = std::numeric_limits<float>::max();
 /// Squared geodesic distances, core nodes x patch nodes, row-major; square mesh units, or
 /// kUnreachable.
 struct DistanceTable {
-  Index rows = 0, columns = 0;
-  std::vector<float> squared;
+  Index rows = 0;              ///< core nodes
+  Index columns = 0;           ///< nodes of the patch
+  std::vector<float> squared;  ///< rows * columns
+  /// The distances from core node i.
   const float* row(Index i) const { return squared.data() + std::size_t(i) * columns; }
 };
 

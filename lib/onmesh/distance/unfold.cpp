@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "onmesh/base/simd_targets.h"
+#include "onmesh/base/triangle.h"
 #include "onmesh/distance/unfold_complex.h"
-#include "onmesh/nodes/node_mesh.h"
 
 // This file is compiled once per instruction set (Highway); the best one is chosen at run time.
 #undef HWY_TARGET_INCLUDE

@@ -6,14 +6,16 @@
 
 namespace onmesh {
 
+/// A length with its unit.
 struct Length {
+  /// What the value counts.
   enum class Unit {
-    mesh,
+    mesh,     ///< the mesh's own unit
     texel,    ///< median width of the atlas's texels on the surface
     percent,  ///< of the bounding box's diagonal
   };
-  double value = 0;
-  Unit unit = Unit::mesh;
+  double value = 0;        ///< > 0
+  Unit unit = Unit::mesh;  ///< of the value
 };
 
 /// Read a positive finite number with an optional unit: "0.2", "8tx" or "1%".

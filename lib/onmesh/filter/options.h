@@ -38,7 +38,7 @@ enum class Overlap {
 
 /// Values outside the ranges below are refused with an OptionError that names the field.
 struct FilterOptions {
-  FilterKind kind = FilterKind::bilateral;
+  FilterKind kind = FilterKind::bilateral;  ///< with or without a range weight
   /// Width of the filter on the surface: standard deviation of the spatial weight; > 0.
   Length sigma_spatial{4, Length::Unit::texel};
   /// Bilateral only: standard deviation of the range weight, in the texture's value units; > 0.
@@ -54,12 +54,12 @@ struct FilterOptions {
   /// Between the nodes of the distance tables; > 0. Default: see node_spacing_for().
   std::optional<Length> node_spacing;
 
-  FilterMethod method = FilterMethod::automatic;
+  FilterMethod method = FilterMethod::automatic;  ///< how the sums are done
   /// Where the nodes are used: most RMS difference to the direct sums, as a share of the texture's
   /// range of values (largest less smallest); > 0.
   double tolerance = 1.0 / 512;
 
-  SampleKind samples = SampleKind::texel;
+  SampleKind samples = SampleKind::texel;  ///< what is summed over
   /// Poisson only: least distance of samples; > 0. Default: by the size of the texels, so that each
   /// is hit.
   std::optional<Length> spacing;

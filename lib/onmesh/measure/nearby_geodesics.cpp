@@ -1,4 +1,6 @@
 #include "onmesh/measure/nearby_geodesics.h"
+#include "onmesh/distance/exact.h"
+#include "onmesh/patches/grow_patch.h"
 
 #include <cmath>
 

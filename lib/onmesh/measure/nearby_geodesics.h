@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "onmesh/distance/backend.h"
+#include "onmesh/mesh/triangle_mesh.h"
+#include "onmesh/nodes/node_mesh.h"
 
 namespace onmesh {
 

@@ -17,7 +17,9 @@ class ClosestPoint {
   /// \throw InputError if no face is left
   explicit ClosestPoint(const TriangleMesh& mesh);
   ~ClosestPoint();
+  /// Can be moved, not copied.
   ClosestPoint(ClosestPoint&&) noexcept;
+  /// The same.
   ClosestPoint& operator=(ClosestPoint&&) noexcept;
 
   /// Closest point of the surface; the lowest face index among equally close faces.

@@ -10,19 +10,19 @@ namespace onmesh {
 
 /// What faces look like, by name.
 struct Material {
-  std::string name;
+  std::string name;     ///< as the file has it
   std::string texture;  ///< image path, resolved against the material file; empty if there is none
 };
 
 /// Positions and UVs are indexed apart: position indices give connectivity, UV indices stay per
 /// corner, so that a seam is an edge whose two faces have different UV indices.
 struct TriangleMesh {
-  std::vector<Vec3> positions;
+  std::vector<Vec3> positions;                 ///< mesh units
   std::vector<Vec2> uvs;                       ///< v points up, [0,1] is one tile
   std::vector<std::array<Index, 3>> faces;     ///< into positions
   std::vector<std::array<Index, 3>> face_uvs;  ///< into uvs, one per face; kNone = no UV there
   std::vector<Index> face_materials;           ///< into materials, one per face; kNone = none
-  std::vector<Material> materials;
+  std::vector<Material> materials;             ///< in the order of the file
 
   /// All three corners of the face have a UV.
   bool has_uvs(Index face) const {

@@ -11,9 +11,9 @@ namespace onmesh {
 
 /// One vertex property of a PLY file: a name and a value per vertex.
 struct PlyColumn {
-  std::string name;
-  std::vector<double> values;
-  bool integer = false;  ///< written as 32-bit int instead of double
+  std::string name;            ///< one word
+  std::vector<double> values;  ///< one per vertex
+  bool integer = false;        ///< written as 32-bit int instead of double
 };
 
 /// Write binary little-endian PLY, atomically (temporary file beside the target, then rename). The

@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "onmesh/nodes/node_mesh.h"
+#include "onmesh/base/plane.h"
+#include "onmesh/base/triangle.h"
 
 namespace onmesh {
-namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-}  // namespace
-
 double HalfEdges::corner_angle(Index h) const {
   const double a = length[h], b = length[prev(h)], c = length[next(h)];
   // The dot product a b cos = (a^2 + b^2 - c^2) / 2, arranged against cancellation.

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "onmesh/base/plane.h"
+
 namespace onmesh {
 namespace {
 
 Vec2 rotated(const Vec2& v, const Vec2& by) {
   return {v.x() * by.x() - v.y() * by.y(), v.x() * by.y() + v.y() * by.x()};
 }
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace
 

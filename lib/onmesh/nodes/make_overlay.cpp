@@ -8,12 +8,12 @@
 #include <cmath>
 #include <optional>
 
+#include "onmesh/base/plane.h"
+
 namespace onmesh {
 namespace {
 
 using Corners = std::array<Vec2, 3>;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 struct Circle {
   Vec2 centre;

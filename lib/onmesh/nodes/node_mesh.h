@@ -12,13 +12,14 @@ namespace onmesh {
 /// may have one node twice (multi-edges and self-edges of intrinsic triangulations): never look a
 /// face or an edge up by its nodes. Non-manifold complexes are allowed.
 struct NodeMesh {
-  std::vector<SurfacePoint> nodes;  ///< where each node lies on the input mesh
-  std::vector<std::array<Index, 3>> faces;
+  std::vector<SurfacePoint> nodes;          ///< where each node lies on the input mesh
+  std::vector<std::array<Index, 3>> faces;  ///< into nodes
   /// lengths[f][k]: of face f's edge from corner k to corner (k + 1) % 3, mesh units.
   std::vector<std::array<double, 3>> lengths;
-  /// Faces around each node (CSR), ascending, each once: those of node n are node_faces from
-  /// node_offsets[n] to before node_offsets[n + 1].
-  std::vector<Index> node_offsets, node_faces;
+  /// Where each node's faces begin in node_faces (CSR): those of node n end before
+  /// node_offsets[n + 1].
+  std::vector<Index> node_offsets;
+  std::vector<Index> node_faces;  ///< faces around each node, ascending, each once
 
   /// neighbours[f][k] = 3 g + l: edge k of face f is glued to edge l of face g, and to nothing
   /// else. kNone: boundary, or an edge with three or more faces. May be empty; then edges are told
@@ -41,8 +42,8 @@ struct NodeMesh {
 
 /// A point in a node face: barycentric coordinates that sum to 1.
 struct NodePoint {
-  Index face = kNone;
-  Vec3 barycentric = Vec3::Zero();
+  Index face = kNone;               ///< of the node mesh
+  Vec3 barycentric = Vec3::Zero();  ///< weights of the face's corners
 };
 
 /// The mesh's own vertices and faces as nodes, unrefined. Node i is vertex i; its point's face is

@@ -8,8 +8,8 @@ namespace onmesh {
 
 /// A node mesh made from an input mesh, with the way from one to the other.
 struct NodeSurface {
-  NodeMesh nodes;
-  Overlay overlay;
+  NodeMesh nodes;   ///< the nodes and the triangles between them
+  Overlay overlay;  ///< where those lie on the input mesh
 };
 
 }  // namespace onmesh

@@ -9,7 +9,7 @@ namespace onmesh {
 
 /// A node face that overlaps an input face.
 struct OverlayPiece {
-  Index node_face = kNone;
+  Index node_face = kNone;  ///< of the node mesh
   /// On the overlap, barycentric coordinates in the node face are to_node * (barycentric
   /// coordinates in the input face): an isometry, as both are laid out in one plane there.
   Eigen::Matrix3d to_node;
@@ -17,8 +17,8 @@ struct OverlayPiece {
 
 /// The node faces over each input face.
 struct Overlay {
-  std::vector<Index> face_offsets;  ///< input faces + 1: where each one's pieces begin
-  std::vector<OverlayPiece> pieces;
+  std::vector<Index> face_offsets;   ///< input faces + 1: where each one's pieces begin
+  std::vector<OverlayPiece> pieces;  ///< of all input faces, one after the other
 
   /// The piece that holds the point: the largest least coordinate wins, then the first.
   /// \return kNone if the face has no pieces, as a face without area

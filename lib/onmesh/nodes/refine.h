@@ -43,9 +43,13 @@ struct RefineOptions {
   Index max_nodes = 200'000'000;
 };
 
+/// What refinement did.
 struct RefineReport {
-  Index input_vertices = 0, nodes = 0, faces = 0;
-  Index flips = 0, insertions = 0;
+  Index input_vertices = 0;           ///< of the mesh given
+  Index nodes = 0;                    ///< of the result
+  Index faces = 0;                    ///< of the result
+  Index flips = 0;                    ///< of edges
+  Index insertions = 0;               ///< of nodes
   double smallest_angle_degrees = 0;  ///< intrinsic: over faces without a vertex that forces it
   bool bisected = false;              ///< with options.flat_faces
 };

@@ -21,11 +21,11 @@ Image make_texture(int width, int height, Pattern pattern, double noise, std::ui
 
 /// How make_surface_texture() paints.
 struct SurfaceTextureOptions {
-  Pattern pattern = Pattern::checker;
+  Pattern pattern = Pattern::checker;  ///< what is painted
   double cell = 0;   ///< size of the pattern's cells, mesh units; 0 = an eighth of the longest side
   double noise = 0;  ///< amplitude of the uniform noise per texel, [0, 1]
-  std::uint64_t seed = 1;
-  int padding = 4;  ///< texels around charts that continue the pattern, >= 0
+  std::uint64_t seed = 1;  ///< of the noise and of random patterns
+  int padding = 4;         ///< texels around charts that continue the pattern, >= 0
 };
 
 /// The pattern as a solid texture carved by the surface: it runs on across seams, whatever the

@@ -11,7 +11,8 @@ namespace onmesh {
 
 /// How render() looks at the model.
 struct RenderOptions {
-  int width = 800, height = 800;  ///< pixels, [1, 16384]
+  int width = 800;                ///< pixels, [1, 16384]
+  int height = 800;               ///< the same
   double azimuth_degrees = 35;    ///< camera direction around `up`; 0 = from +z (+y up), -y (+z up)
   double elevation_degrees = 25;  ///< above the horizon, [-90, 90]
   double zoom = 1;                ///< 1 = the model fills the picture, (0, 1000]
@@ -27,10 +28,10 @@ struct RenderOptions {
 /// colours per material, one texture for all faces, a texture per material; grey if none is.
 struct RenderColour {
   const std::vector<double>* scalar =
-      nullptr;               ///< per vertex; faces with a value not finite are grey
-  double isoline_step = 0;   ///< 0 = a twentieth of the range, negative = none
-  bool by_material = false;  ///< one flat colour per material
-  const Image* texture = nullptr;
+      nullptr;                     ///< per vertex; faces with a value not finite are grey
+  double isoline_step = 0;         ///< 0 = a twentieth of the range, negative = none
+  bool by_material = false;        ///< one flat colour per material
+  const Image* texture = nullptr;  ///< for all faces with UVs
   std::vector<const Image*> material_textures;  ///< per material of the mesh; null = grey
 };
 

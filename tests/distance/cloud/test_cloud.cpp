@@ -19,6 +19,7 @@
 #include "support/distance_errors.h"
 #include "support/exact_distances.h"
 #include "support/filter_error.h"
+#include "support/mesh_parts.h"
 #include "support/simple_shapes.h"
 
 namespace onmesh {
@@ -263,14 +264,9 @@ TEST_CASE("cloud does not care how faces are wound", "[cloud]") {
 
 TEST_CASE("parallel sheets closer than the spacing exchange nothing", "[cloud]") {
   const int n = 10;
-  TriangleMesh mesh = plane(n, n, 1, 1, 0.3);
-  const Index half = Index(mesh.positions.size()), faces = Index(mesh.faces.size());
-  for (Index i = 0; i < half; ++i)
-    mesh.positions.push_back(mesh.positions[i] + Vec3(0, 0, 0.5 / n));
-  for (Index f = 0; f < faces; ++f) {
-    const auto c = mesh.faces[f];
-    mesh.faces.push_back({c[0] + half, c[1] + half, c[2] + half});
-  }
+  const TriangleMesh sheet = plane(n, n, 1, 1, 0.3);
+  const TriangleMesh mesh = side_by_side(sheet, sheet, {0, 0, 0.5 / n});
+  const auto half = Index(sheet.positions.size());
   const DistanceTable table = cloud_table(mesh, 2);
   for (Index i = 0; i < table.rows; ++i)
     for (Index j = 0; j < table.columns; ++j)

@@ -4,6 +4,7 @@
 
 #include "support/areas.h"
 #include "support/distance_errors.h"
+#include "support/mesh_parts.h"
 #include "support/simple_shapes.h"
 
 namespace onmesh {
@@ -45,11 +46,9 @@ TEST_CASE("a weight multiplies a face's area", "[linear_systems]") {
 }
 
 TEST_CASE("nodes know the first node of their component", "[linear_systems]") {
-  TriangleMesh mesh = plane(2, 2, 1, 1);
-  const Index half = Index(mesh.positions.size());
-  const auto faces = mesh.faces;
-  for (Index i = 0; i < half; ++i) mesh.positions.push_back(mesh.positions[i] + Vec3(0, 0, 1));
-  for (const auto& f : faces) mesh.faces.push_back({f[0] + half, f[1] + half, f[2] + half});
+  const TriangleMesh sheet = plane(2, 2, 1, 1);
+  const TriangleMesh mesh = side_by_side(sheet, sheet, {0, 0, 1});
+  const auto half = Index(sheet.positions.size());
   const heat::LinearSystems systems = heat::make_linear_systems(whole(make_node_mesh(mesh)), {}, 1);
   for (Index i = 0; i < 2 * half; ++i) CHECK(systems.component[i] == (i < half ? 0 : half));
 }

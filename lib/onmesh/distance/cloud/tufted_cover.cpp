@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "onmesh/base/triangle.h"
 #include "onmesh/nodes/half_edges.h"
-#include "onmesh/nodes/node_mesh.h"
 
 namespace onmesh::cloud {
 namespace {
