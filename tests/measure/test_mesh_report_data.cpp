@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "onmesh/measure/mesh_report.h"
+#include "onmesh/mesh/clean.h"
 #include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/nodes/half_edge_mesh.h"
 #include "support/paths.h"

@@ -1,6 +1,7 @@
 // Exact distances up to a radius, and the closed forms that tests take for true.
 #include "onmesh/distance/exact.h"
 #include "onmesh/measure/nearby_geodesics.h"
+#include "onmesh/mesh/clean.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
