@@ -1,6 +1,7 @@
 // Taps per second of the bilateral kernel on a flat patch.
 #include <benchmark/benchmark.h>
 
+#include "onmesh/kernel/direct/direct_kernel.h"
 #include "support/flat_patch.h"
 
 namespace onmesh {

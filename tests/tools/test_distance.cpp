@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "onmesh/image/image.h"
+#include "onmesh/image/image_io.h"
 #include "onmesh/mesh_io/read_mesh.h"
 #include "tools/tool_checks.h"
 

@@ -1,5 +1,6 @@
 // filter from end to end.
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>

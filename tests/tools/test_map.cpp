@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "onmesh/image/image.h"
+#include "onmesh/image/image_io.h"
 #include "tools/tool_checks.h"
 
 using namespace onmesh;
