@@ -67,7 +67,7 @@ Row new_row(const Scene& scene, std::string_view backend) {
 
 /// In units of sigma, within the bilateral filter's radius.
 DistanceError error_of(const Scene& scene, const std::vector<std::vector<double>>& distances) {
-  const double radius = scene.weights(FilterKind::bilateral).radius * kRadiusSlack;
+  const double radius = largest_distance(scene.weights(FilterKind::bilateral).radius);
   std::vector<double> exact, other;
   for (std::size_t k = 0; k < scene.tried.size(); ++k) {
     const Neighbourhood& around = scene.tried[k];

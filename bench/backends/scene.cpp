@@ -133,7 +133,7 @@ Scene make_scene(const Subject& subject, double sigma_texels, std::size_t texels
 
   scene.truth_on = subject.truth;
   const double radius = scene.weights(FilterKind::gaussian).radius;
-  const Distances distances = scene.truth(radius * kRadiusSlack);
+  const Distances distances = scene.truth(largest_distance(radius));
   scene.tried.resize(centres.size());
   tbb::parallel_for(std::size_t(0), centres.size(), [&](std::size_t i) {
     scene.tried[i] = neighbourhood(scene.points, centres[i], radius, distances);

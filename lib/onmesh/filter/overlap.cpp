@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "onmesh/base/error.h"
+#include "onmesh/base/text.h"
 
 namespace onmesh {
 
@@ -15,7 +16,7 @@ OverlapPolicy::OverlapPolicy(Overlap overlap, const TexelMap& map)
 }
 
 std::string OverlapPolicy::description() const {
-  return std::to_string(texels_.size()) + (texels_.size() == 1 ? " texel is" : " texels are") +
+  return count_text(texels_.size(), "texel is", "texels are") +
          " claimed by several places of the surface, the first at column " +
          std::to_string(texels_[0] % width_) + ", row " + std::to_string(texels_[0] / width_);
 }
