@@ -38,7 +38,9 @@ TEST_CASE("the plan tells what the filter then does", "[setup][filter]") {
   CHECK(plan.warnings == report.warnings);
   CAPTURE(plan.samples, report.samples, plan.nodes, report.nodes);
   CHECK(double(plan.samples) == Approx(double(report.samples)).epsilon(0.05));
-  CHECK(double(plan.nodes) == Approx(double(report.nodes)).epsilon(0.25));
+  // An upper estimate: as if the surface were curved everywhere.
+  CHECK(plan.nodes >= report.nodes);
+  CHECK(double(plan.nodes) < 1.5 * double(report.nodes));
   CHECK(report.pairs > 200 * report.texels);
   CHECK(report.stages.size() == 5);
 }

@@ -45,7 +45,7 @@ Difference by_nodes(const TriangleMesh& mesh, const Image& texture, FilterKind k
   const Image direct = filter(mesh, texture, options_for(kind, sigma_texels, FilterMethod::direct));
   const Image nodes =
       filter(mesh, texture, options_for(kind, sigma_texels, FilterMethod::nodes), &report);
-  CHECK(report.by_nodes > 0.9 * double(report.texels));
+  CHECK(report.by_nodes > 0.99 * double(report.texels));
   return compare(direct, nodes);
 }
 
@@ -55,9 +55,9 @@ TEST_CASE("by nodes the Gaussian filter is close to its direct sums", "[nodes][f
   const Image texture = make_texture(256, 256, Pattern::checker, 0.2, 1);
   for (const double sigma : {6.0, 12.0}) {
     INFO("sigma " << sigma);
-    CHECK(by_nodes(make_sphere(4), texture, FilterKind::gaussian, sigma).psnr > 55);
-    CHECK(by_nodes(make_torus(48, 20), texture, FilterKind::gaussian, sigma).psnr > 55);
-    CHECK(by_nodes(make_cube(), texture, FilterKind::gaussian, sigma).psnr > 50);
+    CHECK(by_nodes(make_sphere(4), texture, FilterKind::gaussian, sigma).psnr > 60);
+    CHECK(by_nodes(make_torus(48, 20), texture, FilterKind::gaussian, sigma).psnr > 60);
+    CHECK(by_nodes(make_cube(), texture, FilterKind::gaussian, sigma).psnr > 60);
   }
 }
 
@@ -67,8 +67,8 @@ TEST_CASE("by nodes the bilateral filter is close to its direct sums", "[nodes][
     for (const TriangleMesh& mesh : {make_sphere(4), make_blob(4, 3), make_cube()}) {
       const Difference difference = by_nodes(mesh, texture, FilterKind::bilateral, sigma);
       INFO("sigma " << sigma << ", " << mesh.faces.size() << " faces");
-      CHECK(difference.psnr > 45);
-      CHECK(difference.worst < 0.1);
+      CHECK(difference.psnr > 65);
+      CHECK(difference.worst < 0.01);
     }
   }
 }
@@ -77,7 +77,9 @@ TEST_CASE("by nodes any number of channels works", "[nodes][filter]") {
   const int channels = GENERATE(1, 2, 3, 6);
   const Image texture = make_texture(128, 128, Pattern::checker, 0.2, 1, channels);
   const FilterKind kind = GENERATE(FilterKind::bilateral, FilterKind::gaussian);
-  CHECK(by_nodes(make_sphere(3), texture, kind, 8).psnr > 45);
+  // Colours of six channels are farther from a palette: there the tolerance, 54 dB, is just missed.
+  const bool by_palette = kind == FilterKind::bilateral && channels == 6;
+  CHECK(by_nodes(make_sphere(3), texture, kind, 8).psnr > (by_palette ? 53 : 65));
 }
 
 TEST_CASE("by nodes a constant texture stays, and values that are not finite", "[nodes][filter]") {

@@ -1,5 +1,4 @@
-// Charts of an atlas: which faces lie side by side in it (internal). Seams, where a chart ends, are
-// found by UnfoldedWalk::across_in_chart() and measured in measure/seam_error.h.
+// Charts of an atlas: which faces lie side by side in it (internal).
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Whole files in, whole files out. (Images are written by image/write_image.)
+// Whole files in, whole files out.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What is wrong, or special, about a mesh and its atlas, and what to tell the user about it.
+// What is wrong, or special, about a mesh and its atlas.
 #pragma once
 
 #include <string>

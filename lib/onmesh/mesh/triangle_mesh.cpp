@@ -32,7 +32,7 @@ class PointNumbers {
   Index first_equal(Index point) {
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t slot = hash(points_[point]) & mask;; slot = (slot + 1) & mask) {
-      if (slots_[slot] == kNone) slots_[slot] = point;
+      if (slots_[slot] == kNone) return slots_[slot] = point;  // also what is not a number
       if (points_[slots_[slot]] == points_[point]) return slots_[slot];
     }
   }

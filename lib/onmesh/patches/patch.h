@@ -1,5 +1,4 @@
-// Patches: bounded pieces of work, cut out of the node mesh. partition.h chooses their cores,
-// grow_patch.h makes them.
+// Patches: bounded pieces of work, cut out of the node mesh.
 #pragma once
 
 #include <array>

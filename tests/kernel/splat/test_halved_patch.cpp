@@ -1,10 +1,10 @@
 // Halved patches: the same surface with faces of half the size.
-#include "onmesh/distance/unfold.h"
 #include "onmesh/kernel/splat/halved_patch.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "onmesh/distance/unfold.h"
 #include "onmesh/nodes/refine.h"
 #include "onmesh/patches/grow_patch.h"
 #include "onmesh/patches/partition.h"

@@ -40,10 +40,10 @@ TEST_CASE("the palette's range kernel is right where its colours are", "[palette
       }
     }
     const double rms = std::sqrt(squares / count);
-    CHECK(rms < last / 1.5);
+    CHECK(rms < last / 4);
     last = rms;
   }
-  CHECK(last < 0.01);
+  CHECK(last < 0.0005);
 }
 
 TEST_CASE("a palette has no more colours than there are", "[palette]") {

@@ -1,10 +1,10 @@
 #include "onmesh/kernel/splat/halved_patch.h"
-#include "onmesh/patches/patch_edges.h"
 
 #include <algorithm>
 #include <cassert>
 
 #include "onmesh/base/simd_targets.h"
+#include "onmesh/patches/patch_edges.h"
 
 // This file is compiled once per instruction set (Highway); the best one is chosen at run time.
 #undef HWY_TARGET_INCLUDE

@@ -81,16 +81,20 @@ class Slice {
   template <int kChannels>
   void compare(const Chunk& chunk, std::size_t first) {
     const D d;
-    const Palette& palette = s_.palette;
     const std::size_t channels = kChannels > 0 ? std::size_t(kChannels) : channels_;
-    for (std::size_t k = 0; k < palette.size; ++k) {
+    // Not read again after every store.
+    const float* const colours = s_.palette.colours.data();
+    const Chunk::Array* const own = chunk.colours.data();
+    const std::size_t padded = s_.palette.padded, size = s_.palette.size;
+    float* likeness = likeness_.get();
+    for (std::size_t k = 0; k < size; ++k, likeness += hn::Lanes(d)) {
       V x = hn::Zero(d);
       for (std::size_t c = 0; c < channels; ++c) {
-        const V own = hn::LoadU(d, &chunk.colours[c][first]);
-        const V difference = hn::Sub(own, hn::Set(d, palette.colours[c * palette.padded + k]));
+        const V colour = hn::Set(d, colours[c * padded + k]);
+        const V difference = hn::Sub(hn::LoadU(d, &own[c][first]), colour);
         x = hn::NegMulAdd(difference, difference, x);
       }
-      hn::Store(exp2(d, x), d, likeness_.get() + k * hn::Lanes(d));
+      hn::Store(exp2(d, x), d, likeness);
     }
   }
 

@@ -90,14 +90,18 @@ class Splat {
   void compare(const Chunk& chunk, std::size_t first) {
     const D d;
     const std::size_t channels = kChannels > 0 ? std::size_t(kChannels) : channels_;
-    for (std::size_t r = 0; r < chunk.count; ++r) {
+    // Not read again after every store.
+    const float* const colours = s_.palette.colours.data() + first;
+    const Chunk::Array* const own = chunk.colours.data();
+    const std::size_t padded = s_.palette.padded, count = chunk.count;
+    float* likeness = likeness_.get();
+    for (std::size_t r = 0; r < count; ++r, likeness += hn::Lanes(d)) {
       V x = hn::Zero(d);
       for (std::size_t c = 0; c < channels; ++c) {
-        const float* const colours = s_.palette.colours.data() + c * s_.palette.padded + first;
-        const V difference = hn::Sub(hn::Set(d, chunk.colours[c][r]), hn::LoadU(d, colours));
+        const V difference = hn::Sub(hn::Set(d, own[c][r]), hn::LoadU(d, colours + c * padded));
         x = hn::NegMulAdd(difference, difference, x);
       }
-      hn::Store(exp2(d, x), d, likeness_.get() + r * hn::Lanes(d));
+      hn::Store(exp2(d, x), d, likeness);
     }
   }
 

@@ -1,9 +1,10 @@
 #include "onmesh/kernel/splat/subnodes.h"
-#include "onmesh/patches/patch_edges.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "onmesh/patches/patch_edges.h"
 
 namespace onmesh {
 namespace {
