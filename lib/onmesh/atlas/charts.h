@@ -1,4 +1,5 @@
-// Charts of an atlas: which faces lie side by side in it (internal).
+// Charts of an atlas: which faces lie side by side in it (internal). Seams, where a chart ends, are
+// found by UnfoldedWalk::across_in_chart() and measured in measure/seam_error.h.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Whole files in, whole files out.
+// Whole files in, whole files out. (Images are written by image/write_image.)
 #pragma once
 
 #include <filesystem>

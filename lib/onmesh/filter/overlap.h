@@ -1,4 +1,5 @@
-// Texels that several places of the surface claim: all that depends on the policy of `Overlap`.
+// Texels that several places of the surface claim, and the mean of their results: all that depends
+// on the policy of `Overlap`.
 #pragma once
 
 #include <functional>

@@ -23,7 +23,7 @@ struct Image {
   std::vector<float> pixels;               ///< width * height * channels
   std::vector<std::string> channel_names;  ///< one per channel; empty = Y, R G B, R G B A and so on
 
-  struct Source;                         ///< the file's format, metadata and native pixels
+  struct Source;  ///< format, depth and metadata of the file: native_pixels.h
   std::shared_ptr<const Source> source;  ///< null for images made in memory
 
   /// The values of texel row * width + column, one per channel.

@@ -1,4 +1,5 @@
-// What an evaluation costs: decides whether nodes are worth trying.
+// What an evaluation costs. The patch loop (filter/patch_loop.cpp) decides by it whether nodes are
+// worth trying.
 #pragma once
 
 #include "onmesh/kernel/kernel_input.h"

@@ -1,4 +1,4 @@
-// What is wrong, or special, about a mesh and its atlas.
+// What is wrong, or special, about a mesh and its atlas, and what to tell the user about it.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// Patches: bounded pieces of work, cut out of the node mesh.
+// Patches: bounded pieces of work, cut out of the node mesh. partition.h chooses their cores,
+// grow_patch.h makes them.
 #pragma once
 
 #include <array>
