@@ -43,6 +43,12 @@ bool meets_square(const std::vector<Vec2>& t, int x, int y) {
   return true;
 }
 
+/// Whether a triangle has area: faces without UV area take no part.
+bool has_area(const std::vector<Vec2>& t) {
+  const Vec2 a = t[1] - t[0], b = t[2] - t[0];
+  return std::abs(a.x() * b.y() - a.y() * b.x()) > 1e-9;
+}
+
 /// Claims and coverage of a mesh whose charts do not overlap, texel by texel.
 void check_against_brute_force(const TriangleMesh& mesh, const TexelMap& map) {
   std::vector<Index> owner(map.coverage.size(), kNone);
@@ -56,8 +62,8 @@ void check_against_brute_force(const TriangleMesh& mesh, const TexelMap& map) {
       Index expected = kNone;
       bool meets = false;
       for (Index f = 0; f < mesh.faces.size(); ++f) {
-        if (map.texel_area[f] == 0) continue;
         const auto t = pixel_corners(mesh, f, map.width, map.height);
+        if (!has_area(t)) continue;
         if (expected == kNone && holds_point(t, {x + 0.5, y + 0.5}, 1e-10)) expected = f;
         meets = meets || meets_square(t, x, y);
       }

@@ -185,8 +185,8 @@ TEST_CASE("seams of a cube's smooth texture close as texels shrink", "[gutter]")
     fill_gutter(mesh, map, 2, image);
     const SeamError error = seam_error(mesh, map, image);
     CHECK(error.edges == 36);
-    CHECK(error.rms < 0.15 * before);
-    CHECK(error.rms < 0.6 * last);
+    CHECK(error.rms < 0.16 * before * 60 / size);
+    CHECK(error.rms < 0.52 * last);
     last = error.rms;
   }
   CHECK(last < 0.007);  // first order: the texture has a kink at every edge
@@ -271,7 +271,7 @@ TEST_CASE("without faces there is nothing to fill", "[gutter]") {
   CHECK(fill_gutter(mesh, map, 3, image).empty());
 }
 
-TEST_CASE("seams of real meshes close", "[gutter][data]") {
+TEST_CASE("seams of real meshes close", "[gutter][data][slow]") {
   struct Case {
     const char* name;
     int size;
@@ -293,8 +293,17 @@ TEST_CASE("seams of real meshes close", "[gutter][data]") {
     CHECK(before.edges > 0);
     INFO("before " << before.rms << ", after " << after.rms << ", max " << after.max);
     CHECK(after.rms < c.share * before.rms);
-    double worst = 0;
-    for (const Index texel : filled) worst = std::max(worst, std::abs(double(*image.texel(texel))));
-    CHECK(worst < 3);
+    // What is filled lies between values of the surface.
+    float low = std::numeric_limits<float>::max(), high = -low;
+    for (Index texel = 0; texel < map.coverage.size(); ++texel)
+      if (map.coverage[texel] == Coverage::covered) {
+        low = std::min(low, *image.texel(texel));
+        high = std::max(high, *image.texel(texel));
+      }
+    CHECK(filled.size() > map.coverage.size() / 200);
+    for (const Index texel : filled) {
+      REQUIRE(*image.texel(texel) >= low - 1e-6F);
+      REQUIRE(*image.texel(texel) <= high + 1e-6F);
+    }
   }
 }

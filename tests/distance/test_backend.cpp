@@ -120,7 +120,7 @@ TEST_CASE("self-edges and multi-edges are ordinary edges", "[distance]") {
       CHECK(unfold.max < 1e-4);
       const Errors heat = compare(fill(*make_heat(), whole(mesh), reach), reach, truth);
       CAPTURE(heat.mean, heat.max);
-      CHECK(heat.mean < 0.05);
+      CHECK(heat.mean < 0.012);
     }
   }
 }
@@ -128,7 +128,7 @@ TEST_CASE("self-edges and multi-edges are ordinary edges", "[distance]") {
 TEST_CASE("distances on refined spheres converge to great circles", "[distance]") {
   for (const bool heat : {false, true}) {
     const auto backend = heat ? make_heat() : make_unfold();
-    double previous = 0;
+    double previous = 1e-3;
     for (const int level : {3, 4, 5}) {
       const TriangleMesh mesh = icosphere(level);
       const NodeMesh nodes = make_node_mesh(mesh);
@@ -141,8 +141,8 @@ TEST_CASE("distances on refined spheres converge to great circles", "[distance]"
       };
       const Errors errors = compare(fill(*backend, patch, reach), reach, truth);
       CAPTURE(heat, level, errors.mean);
-      CHECK(errors.mean < 0.01);
-      if (previous > 0) CHECK(errors.mean < previous * (heat ? 0.8 : 0.5));
+      CHECK(errors.count > 10);
+      CHECK(errors.mean < previous * (previous == 1e-3 ? 1 : heat ? 0.8 : 0.5));
       previous = errors.mean;
     }
   }
@@ -155,9 +155,9 @@ TEST_CASE("unfold and heat agree with exact distances", "[distance]") {
     double unfold, heat;  // bounds of the mean error, mean edge lengths
   };
   for (const Case& c :
-       {Case{"sphere", icosphere(3), 0.001, 0.01}, Case{"torus", torus(40, 16), 0.002, 0.015},
-        Case{"cube", cube(6), 0.005, 0.05}, Case{"cone", cone(270, 24, 12), 0.002, 0.05},
-        Case{"saddle", saddle(14), 0.002, 0.03}, Case{"blob", blob(3), 0.002, 0.02}}) {
+       {Case{"sphere", icosphere(3), 3e-4, 0.003}, Case{"torus", torus(40, 16), 3e-4, 0.003},
+        Case{"cube", cube(6), 3e-4, 0.02}, Case{"cone", cone(270, 24, 12), 3e-4, 0.02},
+        Case{"saddle", saddle(14), 3e-4, 0.01}, Case{"blob", blob(3), 3e-4, 0.003}}) {
     CAPTURE(c.name);
     const Errors unfold = against_exact(*make_unfold(), c.mesh, 2.5, 29);
     CAPTURE(unfold.mean, unfold.p99, unfold.max);
@@ -183,7 +183,7 @@ TEST_CASE("distances reach the far side of a mesh", "[distance]") {
       const Errors errors = compare(fill(*backend, patch, reach), reach, truth);
       CAPTURE(backend->name(), reach, errors.mean);
       CHECK(errors.count == 8 * nodes.nodes.size());
-      CHECK(errors.mean < 0.03);
+      CHECK(errors.mean < 0.0075);  // chords are that much shorter than arcs
     }
 }
 
@@ -199,7 +199,8 @@ TEST_CASE("distances are symmetric and zero from a node to itself", "[distance]"
         if (table.row(i)[j] <= reach * reach && table.row(j)[i] != kUnreachable)
           errors.push_back(std::abs(std::sqrt(table.row(i)[j]) - std::sqrt(table.row(j)[i])) / h);
     }
-    CHECK(summarise(errors).mean < (backend->name() == "heat" ? 0.02 : 0.002));
+    CHECK(summarise(errors).mean < (backend->name() == "heat" ? 0.003 : 1e-4));
+    CHECK(errors.size() > 1000);
   }
 }
 
@@ -215,9 +216,14 @@ TEST_CASE("separate components are out of reach of each other", "[distance]") {
     for (Index i = 0; i < table.rows; ++i)
       for (Index j = 0; j < table.columns; ++j)
         REQUIRE((table.row(i)[j] == kUnreachable) == ((i < half) != (j < half)));
-    const auto d = distances_from(patch, table, 0, Vec3(0.2, 0.3, 0.5));
-    CHECK(std::isinf(d.back()));
-    CHECK(d.front() < 0.2);
+    const SurfacePoint source{0, Vec3(0.2, 0.3, 0.5)};
+    const auto d = distances_from(patch, table, source.face, source.barycentric);
+    const Vec3 place = mesh.position(source);
+    for (Index i = 0; i < table.columns; ++i)
+      if (i < half)
+        REQUIRE(d[i] == Approx((mesh.positions[i] - place).norm()).margin(0.01));
+      else
+        REQUIRE(std::isinf(d[i]));
   }
   CHECK(std::isinf(
       ExactGeodesics(mesh).distances({0, Vec3(.2, .3, .5)}, {{half_faces, Vec3(1, 0, 0)}})[0]));
@@ -234,7 +240,7 @@ TEST_CASE("every edge's faces conduct, also where three meet", "[distance]") {
     return std::hypot(same_page ? rp - rq : rp + rq, p.z() - q.z());
   };
   CHECK(compare(fill(*make_unfold(), whole(nodes), 0.7), 0.7, truth).max < 1e-6);
-  CHECK(compare(fill(*make_heat(), whole(nodes), 0.35), 0.35, truth).mean < 0.05 / n);
+  CHECK(compare(fill(*make_heat(), whole(nodes), 0.35), 0.35, truth).mean < 1e-6);
 }
 
 }  // namespace onmesh

@@ -26,7 +26,7 @@ double psnr_against(const TriangleMesh& mesh, const Image& texture, FilterKind k
   return error.psnr;
 }
 
-TEST_CASE("pages of a book filter as the flat sheets that any two of them are", "[soup]") {
+TEST_CASE("pages of a book filter as the flat sheets that any two of them are", "[soup][slow]") {
   const Image texture = noisy_checker(192, 192);
   for (const double angle : {40.0, 3.0}) {  // nearly closed, pages are much closer than the nodes
     for (const int segments : {1, 5}) {
@@ -95,10 +95,11 @@ TEST_CASE("paths between the halves of a bow tie lead through their common corne
   const Image texture = noisy_checker(128, 128);
   const TriangleMesh tie = make_bow_tie(2);
   for (const FilterKind kind : {FilterKind::bilateral, FilterKind::gaussian})
-    CHECK(psnr_against(tie, texture, kind, 0.15, bow_tie_distances(tie)) >= 70);
+    CHECK(psnr_against(tie, texture, kind, 0.15, bow_tie_distances(tie)) >=
+          (kind == FilterKind::gaussian ? 74 : 84));
 }
 
-TEST_CASE("cloud filters soups close to their closed forms", "[soup][cloud]") {
+TEST_CASE("cloud filters soups close to their closed forms", "[soup][cloud][slow]") {
   const TriangleMesh book = make_book(1), strip = make_moebius(3), tie = make_bow_tie(2);
   struct Case {
     const char* name;
@@ -259,7 +260,7 @@ TEST_CASE("heat takes soups, too", "[soup]") {
   double squares = 0;
   for (std::size_t i = 0; i < heat.pixels.size(); ++i)
     squares += std::pow(double(heat.pixels[i]) - unfold.pixels[i], 2);
-  CHECK(10 * std::log10(double(heat.pixels.size()) / squares) > 40);
+  CHECK(10 * std::log10(double(heat.pixels.size()) / squares) > 82);
 }
 
 TEST_CASE("over a spine the gutter goes on into the page that lies straight ahead", "[soup]") {

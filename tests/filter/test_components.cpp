@@ -44,7 +44,7 @@ double difference(const TriangleMesh& mesh, const Image& a, const Image& b, Inde
   return worst;
 }
 
-TEST_CASE("no component influences another unless it is bridged", "[soup][bridge]") {
+TEST_CASE("no component influences another unless it is bridged", "[soup][bridge][slow]") {
   const TriangleMesh chest = make_chest(1, 0.05);
   const Image texture = noisy_checker(192, 192);
   const Image other = repaint(chest, texture, 1);

@@ -99,7 +99,7 @@ TEST_CASE("any number of threads gives the same bytes", "[filter]") {
   }
 }
 
-TEST_CASE("a plane filters like the plain 2D filter", "[filter]") {
+TEST_CASE("a plane filters like the plain 2D filter", "[filter][slow]") {
   const FilterKind kind = GENERATE(FilterKind::bilateral, FilterKind::gaussian);
   const double sigma_texels = GENERATE(1.0, 3.0, 6.5);
   const TriangleMesh mesh = make_plane(3, 2, 1.5, 1);
@@ -178,18 +178,20 @@ TEST_CASE("texels that no chart needs stay bit for bit, and so does alpha", "[fi
   const Image result = filter(mesh, texture, options, &report);
 
   const TexelMap map = make_texel_map(mesh, 96, 72);
-  std::size_t alpha_changes = 0, changes = 0, filtered = 0;
+  std::size_t alpha_changes = 0, changes = 0, filtered = 0, covered = 0;
   for (Index t = 0; t < map.coverage.size(); ++t) {
     const bool same = std::memcmp(texture.texel(t), result.texel(t), 4 * sizeof(float)) == 0;
     alpha_changes +=
         texture.texel(t)[texture.alpha_channel] != result.texel(t)[texture.alpha_channel];
-    filtered += !same && map.coverage[t] == Coverage::covered;
-    changes += !same && map.coverage[t] == Coverage::none;
+    const bool is_covered = map.coverage[t] == Coverage::covered;
+    covered += is_covered;
+    filtered += !same && is_covered;
+    changes += !same && !is_covered;
   }
   CHECK(alpha_changes == 0);
-  CHECK(filtered > 1000);
-  CHECK((options.gutter == 0 ? changes == 0 : changes > 0));
-  CHECK(changes <= report.gutter);
+  CHECK(filtered > 0.99 * double(covered));
+  CHECK(report.gutter >= covered / 10 * std::size_t(options.gutter));
+  CHECK(changes == report.gutter);
 }
 
 TEST_CASE("where alpha is among the channels does not matter to the others", "[filter]") {
@@ -225,7 +227,7 @@ TEST_CASE("values that are not finite stay where they are and spread nowhere", "
   CHECK(result.texel(64 * 10 + 40)[0] == std::numeric_limits<float>::infinity());
 }
 
-TEST_CASE("Poisson quadrature comes close to texel quadrature", "[filter]") {
+TEST_CASE("Poisson quadrature comes close to texel quadrature", "[filter][slow]") {
   const TriangleMesh mesh = make_cube();
   SurfaceTextureOptions pattern;
   pattern.noise = 0.1;
@@ -239,7 +241,7 @@ TEST_CASE("Poisson quadrature comes close to texel quadrature", "[filter]") {
   CHECK(report.without_sample == 0);
   const double db = psnr(mesh, texels, poisson);
   CAPTURE(db);
-  CHECK(db > 45);  // samples share the area of the texel that they are in
+  CHECK(db > 79);  // samples share the area of the texel that they are in
   CHECK(report.sample_spacing <= report.largest_sample_spacing);
 }
 
@@ -322,12 +324,16 @@ TEST_CASE("texels without a sample within the radius keep their values", "[filte
     FilterReport report;
     const Image result = filter(mesh, texture, options, &report);
     CHECK(report.without_sample > 0.9 * double(report.texels));
-    CHECK(psnr(mesh, texture, result) > 20);
+    std::size_t kept = 0;
+    for (Index t = 0; t < 128 * 128; ++t)
+      kept += std::memcmp(texture.texel(t), result.texel(t), 3 * sizeof(float)) == 0;
+    CHECK(kept >= report.without_sample);
+    CHECK(kept < report.texels);
   }
 }
 
 TEST_CASE("how far nodes are apart does not decide which texels are within the radius",
-          "[filter]") {
+          "[filter][slow]") {
   const TriangleMesh mesh = make_plane(4, 4);
   const Image texture = make_texture(500, 500, Pattern::checker, 0.2, 1);
   FilterReport fine, coarse;

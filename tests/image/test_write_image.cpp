@@ -24,10 +24,14 @@ TEST_CASE("a JPEG is written close to its values and without alpha only", "[writ
   write_image(folder / "a.jpg", image);
   const Image again = read_image(folder / "a.jpg");
   REQUIRE(again.channels == 3);
-  double worst = 0;
-  for (std::size_t i = 0; i < image.pixels.size(); ++i)
-    worst = std::max(worst, std::abs(double(image.pixels[i]) - double(again.pixels[i])));
+  double worst = 0, sum = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const double error = std::abs(double(image.pixels[i]) - double(again.pixels[i]));
+    worst = std::max(worst, error);
+    sum += error;
+  }
   CHECK(worst < 0.03);
+  CHECK(sum / double(image.pixels.size()) < 0.005);
   Image with_alpha = make_image(8, 8, 4);
   with_alpha.alpha_channel = 3;
   CHECK_THROWS_AS(check_writable_image(folder / "b.jpg", with_alpha), InputError);

@@ -51,7 +51,7 @@ Difference by_nodes(const TriangleMesh& mesh, const Image& texture, FilterKind k
 
 }  // namespace
 
-TEST_CASE("by nodes the Gaussian filter is close to its direct sums", "[nodes][filter]") {
+TEST_CASE("by nodes the Gaussian filter is close to its direct sums", "[nodes][filter][slow]") {
   const Image texture = make_texture(256, 256, Pattern::checker, 0.2, 1);
   for (const double sigma : {6.0, 12.0}) {
     INFO("sigma " << sigma);
@@ -61,7 +61,7 @@ TEST_CASE("by nodes the Gaussian filter is close to its direct sums", "[nodes][f
   }
 }
 
-TEST_CASE("by nodes the bilateral filter is close to its direct sums", "[nodes][filter]") {
+TEST_CASE("by nodes the bilateral filter is close to its direct sums", "[nodes][filter][slow]") {
   const Image texture = make_texture(256, 256, Pattern::checker, 0.2, 1);
   for (const double sigma : {6.0, 12.0}) {
     for (const TriangleMesh& mesh : {make_sphere(4), make_blob(4, 3), make_cube()}) {
@@ -73,7 +73,7 @@ TEST_CASE("by nodes the bilateral filter is close to its direct sums", "[nodes][
   }
 }
 
-TEST_CASE("by nodes any number of channels works", "[nodes][filter]") {
+TEST_CASE("by nodes any number of channels works", "[nodes][filter][slow]") {
   const int channels = GENERATE(1, 2, 3, 6);
   const Image texture = make_texture(128, 128, Pattern::checker, 0.2, 1, channels);
   const FilterKind kind = GENERATE(FilterKind::bilateral, FilterKind::gaussian);
@@ -101,7 +101,7 @@ TEST_CASE("by nodes a constant texture stays, and values that are not finite", "
   }
 }
 
-TEST_CASE("nodes are given up where the tolerance is not met", "[nodes][filter]") {
+TEST_CASE("nodes are given up where the tolerance is not met", "[nodes][filter][slow]") {
   // Noise in three channels, a narrow range: more colours than any palette.
   const Image texture = make_texture(512, 512, Pattern::noise, 0.5, 1);
   FilterOptions options = options_for(FilterKind::bilateral, 16, FilterMethod::automatic);
@@ -114,7 +114,7 @@ TEST_CASE("nodes are given up where the tolerance is not met", "[nodes][filter]"
   CHECK(compare(automatic, filter(make_plane(4, 4), texture, options)).psnr > 120);
 }
 
-TEST_CASE("auto takes the nodes for wide filters of large textures only", "[nodes][filter]") {
+TEST_CASE("auto takes the nodes for wide filters of large textures only", "[nodes][filter][slow]") {
   const Image large = make_texture(512, 512, Pattern::checker, 0.2, 1);
   FilterReport report;
   filter(make_plane(4, 4), large, options_for(FilterKind::bilateral, 24, FilterMethod::automatic),
@@ -128,7 +128,7 @@ TEST_CASE("auto takes the nodes for wide filters of large textures only", "[node
 }
 
 TEST_CASE("by nodes the taps per texel are estimated as the direct sums have them",
-          "[nodes][filter]") {
+          "[nodes][filter][slow]") {
   const TriangleMesh mesh = make_sphere(3);
   const Image texture = make_texture(512, 512, Pattern::checker, 0.2, 1);
   FilterReport direct, nodes;

@@ -53,7 +53,7 @@ const std::vector<Row> kRows = {
 
 }  // namespace
 
-TEST_CASE("the counts of real meshes are those of their index", "[mesh_report][data]") {
+TEST_CASE("the counts of real meshes are those of their index", "[mesh_report][data][slow]") {
   const std::filesystem::path folder = shared_data();
   if (!std::filesystem::exists(folder)) {
     WARN("skipped: no ../shared/data");

@@ -65,7 +65,7 @@ std::vector<std::pair<std::string, std::string>> small_files() {
 
 }  // namespace
 
-TEST_CASE("a file cut off at any byte reads as a valid mesh or is refused", "[read_mesh]") {
+TEST_CASE("a file cut off at any byte reads as a valid mesh or is refused", "[read_mesh][slow]") {
   const TempFolder folder;
   folder.file("m.mtl", "newmtl m\nmap_Kd a.png\n");
   for (const auto& [name, content] : small_files()) {
@@ -78,7 +78,7 @@ TEST_CASE("a file cut off at any byte reads as a valid mesh or is refused", "[re
   }
 }
 
-TEST_CASE("a file with any byte changed reads as a valid mesh or is refused", "[read_mesh]") {
+TEST_CASE("a file with any byte changed reads as a valid mesh or is refused", "[read_mesh][slow]") {
   const TempFolder folder;
   folder.file("m.mtl", "newmtl m\nmap_Kd a.png\n");
   std::mt19937 random(1);
@@ -94,7 +94,7 @@ TEST_CASE("a file with any byte changed reads as a valid mesh or is refused", "[
   }
 }
 
-TEST_CASE("material files full of garbage never hurt", "[read_mesh]") {
+TEST_CASE("material files full of garbage never hurt", "[read_mesh][slow]") {
   const TempFolder folder;
   const auto path = folder.file("a.obj", small_files()[0].second);
   std::mt19937 random(2);

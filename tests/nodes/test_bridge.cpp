@@ -78,7 +78,7 @@ TEST_CASE("bridges carry straight distances over a gap", "[bridge]") {
 }
 
 TEST_CASE("heat and cloud go over bridges as straight as they go on the surface",
-          "[bridge][cloud]") {
+          "[bridge][cloud][slow]") {
   const double spacing = 0.1, reach = 0.35;
   const auto method = GENERATE(DistanceMethod::heat, DistanceMethod::cloud);
   for (const double gap : {1e-4, 0.01, 0.05}) {
@@ -167,7 +167,7 @@ TEST_CASE("only gaps below the width are bridged, in both directions", "[bridge]
 }
 
 TEST_CASE("bridges leave distances within a part, and are no short cuts through space",
-          "[bridge]") {
+          "[bridge][slow]") {
   for (const double gap : {0.05, 1e-3, 1e-6}) {
     const TriangleMesh chest = make_chest(1, gap);
     const NodeSurface apart = refined(chest, 0.2);
@@ -196,7 +196,7 @@ TEST_CASE("bridges leave distances within a part, and are no short cuts through 
   }
 }
 
-TEST_CASE("two squares with a bridged gap filter like one plane with that gap", "[bridge]") {
+TEST_CASE("two squares with a bridged gap filter like one plane with that gap", "[bridge][slow]") {
   const Image texture = make_texture(256, 128, Pattern::checker, 0.3, 7, 3);
   const auto kind = GENERATE(FilterKind::bilateral, FilterKind::gaussian);
   const auto method = GENERATE(DistanceMethod::unfold, DistanceMethod::heat, DistanceMethod::cloud);
@@ -211,8 +211,13 @@ TEST_CASE("two squares with a bridged gap filter like one plane with that gap", 
     const DefinitionError out =
         error_of_filter(mesh, texture, options, 600, straight_distances(mesh));
     INFO("gap " << gap << ", " << name_of(method));
-    // On a plane without gaps heat is no better.
-    CHECK(out.psnr > (gap > 0.01 ? 60 : method == DistanceMethod::unfold ? 75 : 70));
+    // A path may cross the gap at each of its edges: that is the error of a wide one. On a plane
+    // without gaps heat is no better than here.
+    const bool bilateral = kind == FilterKind::bilateral;
+    CHECK(out.psnr > (gap > 0.01                         ? bilateral ? 72 : 59
+                      : method == DistanceMethod::unfold ? bilateral ? 94 : 77
+                      : bilateral                        ? 80
+                                                         : 70));
   }
 }
 

@@ -128,7 +128,7 @@ TEST_CASE("random soups are refined in pieces", "[manifold_pieces]") {
     const NodeSurface surface = refine_in_pieces(mesh, options);
     const double area = area_of(mesh);
     CHECK(area_of(surface.nodes) == Approx(area).epsilon(1e-9));
-    CHECK(double(surface.nodes.nodes.size()) < 20 * area / (0.866 * 0.1 * 0.1));
+    CHECK(double(surface.nodes.nodes.size()) < 4.5 * area / (0.866 * 0.1 * 0.1));
   }
 }
 

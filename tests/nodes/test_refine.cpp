@@ -84,7 +84,7 @@ TEST_CASE("nodes are denser around a cone than on the flat", "[refine]") {
   }
   REQUIRE(near_count > 0);
   REQUIRE(far_count > 0);
-  CHECK(near / near_count < 0.6 * far / far_count);
+  CHECK(near / near_count < 0.4 * far / far_count);
 }
 
 TEST_CASE("halving the spacing quadruples the nodes of a flat sheet", "[refine]") {
@@ -93,8 +93,8 @@ TEST_CASE("halving the spacing quadruples the nodes of a flat sheet", "[refine]"
   for (const double spacing : {0.08, 0.04, 0.02}) {
     const auto nodes = static_cast<double>(refine_to(mesh, spacing).nodes.nodes.size());
     const double lattice = 2 / (std::sqrt(3.0) * spacing * spacing);
-    CHECK(nodes > 0.7 * lattice);
-    CHECK(nodes < 1.7 * lattice);
+    CHECK(nodes > lattice);
+    CHECK(nodes < 1.4 * lattice);
     if (before > 0) CHECK(nodes / before == Approx(4).epsilon(0.25));
     before = nodes;
   }
@@ -107,7 +107,7 @@ TEST_CASE("needles, caps and pillows are refined without end", "[refine]") {
                   {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
     const NodeSurface surface = refine_to(tetrahedron, 0.1);
     CHECK(area_of(surface.nodes) == Approx(area_of(tetrahedron)).epsilon(1e-5));
-    CHECK(surface.nodes.nodes.size() < 100000);
+    CHECK(surface.nodes.nodes.size() < 12000);
   }
 }
 
@@ -117,7 +117,7 @@ TEST_CASE("a face without area does not stop the refinement", "[refine]") {
                                       {{0, 1, 2}, {0, 4, 3}, {4, 2, 3}, {0, 2, 4}});
   const NodeSurface surface = refine_to(mesh, 0.2);
   CHECK(area_of(surface.nodes) == Approx(1).epsilon(1e-5));
-  for (const auto& l : surface.nodes.lengths) CHECK(l[0] + l[1] + l[2] < 1e3);
+  for (const auto& l : surface.nodes.lengths) CHECK(l[0] + l[1] + l[2] < 4.5 * 0.2);
 }
 
 TEST_CASE("spacings that make no sense are refused", "[refine]") {
@@ -170,7 +170,7 @@ TEST_CASE("nodes are few where none are needed, and as dense as ever within reac
     const NodeSurface surface = refine_manifold(mesh, options);
     CHECK(area_of(surface.nodes) == Approx(area_of(mesh)).epsilon(1e-11));
     const double everywhere = 100 * 2 / (std::sqrt(3.0) * 0.05 * 0.05);
-    CHECK(double(surface.nodes.nodes.size()) < 0.05 * everywhere);
+    CHECK(double(surface.nodes.nodes.size()) < 0.03 * everywhere);
     double longest = 0;
     for (Index f = 0; f < surface.nodes.faces.size(); ++f) {
       const Index node = surface.nodes.faces[f][0];

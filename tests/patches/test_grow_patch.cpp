@@ -48,7 +48,7 @@ TEST_CASE("a patch numbers its core first and keeps lengths and gluing", "[grow_
   CHECK(*core.rbegin() + 1 == patch.core_nodes);
 }
 
-TEST_CASE("a patch holds every node and face within reach of its core", "[grow_patch]") {
+TEST_CASE("a patch holds every node and face within reach of its core", "[grow_patch][slow]") {
   const auto sheared = [] {
     TriangleMesh mesh = plane(24, 24, 2, 2, 0.4);
     for (Vec3& p : mesh.positions) p.x() += 3 * p.y();  // obtuse faces: edge paths are detours
@@ -93,9 +93,8 @@ TEST_CASE("patches grow across self-edges and non-manifold edges", "[grow_patch]
     tube.lengths.push_back({1, 1, std::sqrt(2.0)});
   }
   tube.build_incidence();
-  CHECK(grow_patch(tube, {0}, 0.4).faces.size() < 5);
-  CHECK(grow_patch(tube, {0}, 0.4).faces.size() >= 3);
-  CHECK(grow_patch(tube, {0}, 1.4).faces.size() >= 5);
+  CHECK(grow_patch(tube, {0}, 0.4).faces.size() == 4);
+  CHECK(grow_patch(tube, {0}, 1.4).faces.size() == 6);
   CHECK(grow_patch(tube, {0}, 9).faces.size() == 8);
 
   const NodeMesh book = make_node_mesh(three_pages(6));

@@ -121,7 +121,7 @@ TEST_CASE("the cube of the paper gets about 90000 samples", "[poisson]") {
 }
 
 TEST_CASE("no pair among many samples is closer than the spacing, however acute the faces",
-          "[poisson]") {
+          "[poisson][slow]") {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> uniform(-0.004, 0.004);
   TriangleMesh ragged = simple::plane(120, 120, 1, 1);
@@ -229,8 +229,10 @@ TEST_CASE("slivers are sampled along their length", "[poisson]") {
   strip.faces.push_back({0, 2, 4});
   const double spacing = 0.001;
   const auto samples = sample(strip, spacing);
-  CHECK(samples.size() >= 500);
-  CHECK(samples.size() <= 1001);
+  // Cars parked at random on a line: .7476 per spacing (Renyi 1958), and a little more as the strip
+  // is not quite a line.
+  CHECK(samples.size() >= 720);
+  CHECK(samples.size() <= 800);
   CHECK(min_distance(strip, samples) >= spacing * (1 - 1e-12));
   CHECK(largest_gap(strip, samples, 10000) <= spacing * (1 + 1e-3));
 }
@@ -257,7 +259,9 @@ TEST_CASE("duplicate faces share their samples", "[poisson]") {
     return result;
   }();
   CHECK(min_distance(mesh, near_edge) >= spacing * (1 - 1e-12));
-  CHECK(double(samples.size()) < 2 * alone);
+  // Near edges the copies share samples; inside, each has its own.
+  CHECK(double(samples.size()) > 1.3 * alone);
+  CHECK(double(samples.size()) < 1.55 * alone);
 }
 
 TEST_CASE("the least distance leaves out pairs that the surface does not join", "[poisson]") {

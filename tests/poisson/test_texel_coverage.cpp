@@ -49,7 +49,7 @@ TriangleMesh slivers() {
 
 }  // namespace
 
-TEST_CASE("every texel is hit, on its own chart", "[texel_coverage]") {
+TEST_CASE("every texel is hit, on its own chart", "[texel_coverage][slow]") {
   for (const TriangleMesh& mesh :
        {make_plane(2, 2), make_cube(), make_sphere(2), make_torus(24, 16), make_cone(270, 12, 4),
         make_u_sheet(1, 1, 0.01), make_saddle(8), make_book(2), make_bow_tie(2), make_moebius(2),
@@ -69,7 +69,7 @@ TEST_CASE("every texel is hit, on its own chart", "[texel_coverage]") {
   }
 }
 
-TEST_CASE("every texel of real meshes is hit", "[texel_coverage]") {
+TEST_CASE("every texel of real meshes is hit", "[texel_coverage][slow]") {
   for (const auto& [name, size] :
        {std::pair{"spot/cow.obj", 512}, {"bob/bob_tri.obj", 512}, {"fuze/fuze.obj", 256}}) {
     const TriangleMesh mesh = read_data(name);

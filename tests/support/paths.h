@@ -14,7 +14,7 @@ std::filesystem::path build_folder();
 /// The folder of large meshes beside the project; it may not be there.
 std::filesystem::path shared_data();
 
-/// The program `onmesh` of this build.
+/// The program `onmesh` of this build; empty if it is built without.
 std::filesystem::path program();
 
 }  // namespace onmesh

@@ -9,7 +9,8 @@
 using namespace onmesh;
 using Catch::Contains;
 
-TEST_CASE("compare finds the worst texel and fails below the asked PSNR", "[tools][compare]") {
+TEST_CASE("compare finds the worst texel and fails below the asked PSNR",
+          "[tools][compare][slow]") {
   const Workspace space;
   Image a = make_image(8, 4, 3), b = a;
   b.texel(2 * 8 + 5)[1] = 0.5F;
@@ -38,7 +39,7 @@ TEST_CASE("compare finds the worst texel and fails below the asked PSNR", "[tool
   CHECK_THAT(wide.err, Contains("wide.exr") && Contains("a.exr"));
 }
 
-TEST_CASE("compare with a mesh looks at covered texels and seams only", "[tools][compare]") {
+TEST_CASE("compare with a mesh looks at covered texels and seams only", "[tools][compare][slow]") {
   const Workspace space;
   space.must("make-mesh cube -o m.obj -t a.png --size 64");
   Image b = read_image(space / "a.png");

@@ -22,6 +22,19 @@ namespace {
 
 std::vector<float> pixels_of(const Image& image) { return image.pixels; }
 
+/// Mean square of the difference between neighbours in a row.
+double roughness(const Image& image) {
+  double squares = 0;
+  for (Index y = 0; y < Index(image.height); ++y)
+    for (Index x = 1; x < Index(image.width); ++x)
+      for (int c = 0; c < image.channels; ++c) {
+        const Index texel = y * Index(image.width) + x;
+        const double step = double(image.texel(texel)[c]) - double(image.texel(texel - 1)[c]);
+        squares += step * step;
+      }
+  return squares / double(image.pixels.size());
+}
+
 /// Whether the process runs the program already, and has set up its own handling of SIGINT.
 bool catches_interrupts(pid_t process) {
   const std::string folder = "/proc/" + std::to_string(process);
@@ -121,7 +134,7 @@ TEST_CASE("filtering brings both sides of the seams together and keeps the rest 
   space.must("filter m.obj -o o.png --sigma-spatial 3tx --sigma-range 0.5 --quiet");
   const auto json = space.must("compare m.png o.png --mesh m.obj --json").json();
   CHECK(json["equal"] == false);
-  CHECK(json["seams_b"]["rms"].get<double>() < 0.5 * json["seams_a"]["rms"].get<double>());
+  CHECK(json["seams_b"]["rms"].get<double>() < 0.3 * json["seams_a"]["rms"].get<double>());
   // Beyond charts and gutter nothing changes.
   space.must("map m.obj -o map.exr --quiet");
   const Image map = read_image(space / "map.exr");
@@ -231,7 +244,7 @@ TEST_CASE("a filter and its samples are measured by the commands that follow", "
   space.must("make-mesh noisy-cube -o m.obj -t m.png --size 96");
   space.must("filter m.obj -o texel.png --sigma-spatial 4tx --quiet");
   space.must("filter m.obj -o poisson.png --sigma-spatial 4tx --samples poisson --quiet");
-  const Run close = space.run("compare texel.png poisson.png --mesh m.obj --fail 25");
+  const Run close = space.run("compare texel.png poisson.png --mesh m.obj --fail 55");
   INFO(close.out);
   CHECK(close.code == 0);
   CHECK(space.run("compare texel.png m.png --mesh m.obj --fail 40").code == 1);
@@ -260,6 +273,7 @@ TEST_CASE("real meshes that are not manifold are filtered, or told why not", "[t
   CHECK(flag.code == 3);
   CHECK_THAT(flag.err, Contains("no face have any area") && Contains("nothing to filter"));
   space.must("make-mesh plane -o m.obj -t small.png --size 128 --noise 0.2");
+  const Image texture = read_image(space / "small.png");
   for (const char* file :
        {"milk_truck/milk_truck.obj", "spider/spider.obj", "cup_scan/textured-0008192.obj"}) {
     INFO(file);
@@ -269,6 +283,7 @@ TEST_CASE("real meshes that are not manifold are filtered, or told why not", "[t
     bool within = true;
     for (const float v : image.pixels) within = within && v >= 0 && v <= 1;
     CHECK(within);
+    CHECK(roughness(image) < 0.9 * roughness(texture));
     const bool tie = std::string(file).rfind("milk", 0) == 0;
     CHECK((run.err.find("2 vertices join parts that share no edge") != std::string::npos) == tie);
     CHECK(run.json()["counts"]["texels"] > 1000);

@@ -17,7 +17,8 @@ TEST_CASE("sample writes points of the surface that keep their distance", "[tool
     CHECK(columns.count(name) == 1);
   }
   const std::size_t count = columns["x"].size();
-  CHECK(count > 50);
+  CHECK(count >= 69);  // as many as a maximal set of these may have
+  CHECK(count <= 90);
   double least = 1;
   for (std::size_t i = 0; i < count; ++i) {
     CHECK(columns["x"][i] == Approx(columns["u"][i]).margin(1e-6));

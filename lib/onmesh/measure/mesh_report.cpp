@@ -124,7 +124,7 @@ void advise_on_surface(const MeshReport& r, Lines& lines) {
         "part a vertex of its own if they should be apart");
   }
   if (!r.orientable) {
-    lines.push_back(
+    lines.emplace_back(
         "part of the surface has only one side, like a Moebius strip: it is filtered as it is, "
         "but normals cannot agree on it; cut it open along a line of edges if that is not meant");
   } else if (r.inconsistent_edges > 0) {

@@ -5,12 +5,13 @@
 
 namespace onmesh {
 
-/// Refine by longest-edge bisection along the longest-edge propagation path (Rivara, Algorithms for
-/// refining triangular grids suitable for adaptive and multigrid techniques, 1984): a face that is
-/// too large is split at the middle of its longest edge together with all other faces on that edge,
-/// after those whose own longest edge is another one have been split there. So the result is
-/// conforming over edges of any number of faces, node faces never leave their input face, and an
-/// angle shrinks to half the input's least one at worst.
+/// Refine by longest-edge bisection along the longest-edge propagation path (Rivara, New
+/// longest-edge algorithms for the refinement and/or improvement of unstructured triangulations,
+/// 1997): a face that is too large is split at the middle of its longest edge together with all
+/// other faces on that edge, after those whose own longest edge is another one have been split
+/// there. So the result is conforming over edges of any number of faces, node faces never leave
+/// their input face, and an angle shrinks to half the input's least one at worst (Rosenberg &
+/// Stenger 1975).
 ///
 /// A face is too large when its longest edge exceeds 1.4 times the wanted spacing (sizing_field.h),
 /// which on right isosceles faces is the circumradius bound of the intrinsic refinement.

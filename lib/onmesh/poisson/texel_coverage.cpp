@@ -11,7 +11,7 @@
 namespace onmesh {
 namespace {
 
-constexpr std::size_t kBlock = 256;
+constexpr std::size_t kTexelsPerBlock = 256;
 
 /// Where samples may go in a texel, from its centre.
 constexpr std::array<std::array<double, 2>, 9> kPlaces = {{{0, 0},
@@ -111,10 +111,11 @@ void hit_all_texels(const TexelMap& map, const ConnectedBall& ball, DiskSet& dis
 
   oneapi::tbb::enumerable_thread_specific<ConnectedBall> balls(ball);
   const TexelFiller filler(map, lookup, disks);
-  std::vector<DartBlock> blocks((left.size() + kBlock - 1) / kBlock);
+  std::vector<DartBlock> blocks((left.size() + kTexelsPerBlock - 1) / kTexelsPerBlock);
   parallel_over(blocks.size(), [&](std::size_t i) {
-    const std::size_t last = std::min(left.size(), (i + 1) * kBlock);
-    for (std::size_t k = i * kBlock; k < last; ++k) filler.fill(left[k], balls.local(), blocks[i]);
+    const std::size_t last = std::min(left.size(), (i + 1) * kTexelsPerBlock);
+    for (std::size_t k = i * kTexelsPerBlock; k < last; ++k)
+      filler.fill(left[k], balls.local(), blocks[i]);
   });
   const std::size_t first = disks.samples().size();
   for (const DartBlock& block : blocks) disks.append(block);

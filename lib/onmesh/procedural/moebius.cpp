@@ -10,7 +10,6 @@ namespace onmesh {
 namespace {
 
 constexpr int kFacets = 5;
-constexpr double kPi = std::numbers::pi;
 
 /// A flat ribbon around a closed space polygon. At every corner it is folded about a crease in the
 /// plane that mirrors one side's direction t_i to the next one's, so that the centre line and the
@@ -27,8 +26,9 @@ Ribbon make_ribbon(double length) {
   Ribbon r;
   for (int i = 0; i < kFacets; ++i) {
     // A pentagram, so that creases run nearly straight across, out of its plane.
-    const double turn = 4 * kPi * i / kFacets;
-    r.corner[i] = Vec3(std::cos(turn), std::sin(turn), 0.35 * std::sin(2 * kPi * i / kFacets));
+    const double turn = 4 * std::numbers::pi * i / kFacets;
+    r.corner[i] =
+        Vec3(std::cos(turn), std::sin(turn), 0.35 * std::sin(2 * std::numbers::pi * i / kFacets));
   }
   double total = 0;
   for (int i = 0; i < kFacets; ++i) total += (r.corner[(i + 1) % kFacets] - r.corner[i]).norm();

@@ -10,8 +10,6 @@
 namespace onmesh {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // A sheet of nx x ny quads whose UVs fill [0,1]^2; `position` maps grid points into space and
 // `u` grid columns to UVs.
 TriangleMesh make_sheet(int nx, int ny, const std::function<Vec3(int, int)>& position,
@@ -40,7 +38,7 @@ TriangleMesh make_folded_sheet(int leaves, double width, double height, double a
   require(angle_degrees >= 0 && angle_degrees < 180,
           "folded sheet: angle must be in [0, 180) degrees");
   // Leaves slope up and down by half the fold angle in turn.
-  const double half = angle_degrees / 2 * kPi / 180, leaf = width / leaves;
+  const double half = angle_degrees / 2 * std::numbers::pi / 180, leaf = width / leaves;
   return make_sheet(
       leaves, ny,
       [&](int i, int j) {
@@ -51,7 +49,7 @@ TriangleMesh make_folded_sheet(int leaves, double width, double height, double a
 }
 
 double u_sheet_width(double leaf, double gap, int segments) {
-  return 2 * leaf + segments * gap * std::sin(kPi / (2 * segments));
+  return 2 * leaf + segments * gap * std::sin(std::numbers::pi / (2 * segments));
 }
 
 TriangleMesh make_u_sheet(double leaf, double height, double gap, int segments, int n) {
@@ -59,7 +57,7 @@ TriangleMesh make_u_sheet(double leaf, double height, double gap, int segments, 
   require(positive(leaf) && positive(height) && positive(gap),
           "U-sheet: leaf, height and gap must be positive");
   const double width = u_sheet_width(leaf, gap, segments),
-               chord = gap * std::sin(kPi / (2 * segments));
+               chord = gap * std::sin(std::numbers::pi / (2 * segments));
   // Columns: n along the lower leaf, `segments` around the bend, n back along the upper leaf.
   const int bend_end = n + segments;
   return make_sheet(
@@ -68,7 +66,7 @@ TriangleMesh make_u_sheet(double leaf, double height, double gap, int segments, 
         const double y = height * j / n;
         if (i <= n) return Vec3(leaf * i / n, y, 0);
         if (i >= bend_end) return Vec3(leaf - leaf * (i - bend_end) / n, y, gap);
-        const double angle = kPi * (i - n) / segments;
+        const double angle = std::numbers::pi * (i - n) / segments;
         return Vec3(leaf + gap / 2 * std::sin(angle), y, gap / 2 * (1 - std::cos(angle)));
       },
       [&](int i) {
@@ -85,7 +83,8 @@ TriangleMesh make_gentle_sheet(int n, double amplitude) {
       n, n,
       [&](int i, int j) {
         const double x = double(i) / n, y = double(j) / n;
-        return Vec3(x, y, amplitude * std::sin(kPi * x) * std::sin(kPi * y));
+        return Vec3(x, y,
+                    amplitude * std::sin(std::numbers::pi * x) * std::sin(std::numbers::pi * y));
       },
       [&](int i) { return double(i) / n; });
 }
@@ -110,7 +109,7 @@ TriangleMesh make_book(int n, double angle_degrees) {
       std::min((1 - 4 * kChartMargin) / (3 * width), (1 - 2 * kChartMargin) / height);
   GridBuilder grid;
   for (int page = 0; page < 3; ++page) {
-    const double angle = (90 + (page - 1) * angle_degrees) * kPi / 180;
+    const double angle = (90 + (page - 1) * angle_degrees) * std::numbers::pi / 180;
     const Vec2 origin(kChartMargin + page * (width * scale + kChartMargin), kChartMargin);
     grid.add_chart(n, n, [&](int i, int j) {
       const double s = width * i / n, y = height * j / n;

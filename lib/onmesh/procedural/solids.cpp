@@ -10,8 +10,6 @@
 namespace onmesh {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // The six faces of a box with n x n quads each, as one cross in the atlas:
 //
 //            top
@@ -67,7 +65,7 @@ TriangleMesh make_torus(int nu, int nv, double major_radius, double minor_radius
   const double side = 1 - 2 * kChartMargin, aspect = minor_radius / major_radius;
   GridBuilder grid;
   grid.add_chart(nu, nv, [&](int i, int j) {
-    const double u = 2 * kPi * (i % nu) / nu, v = 2 * kPi * (j % nv) / nv;
+    const double u = 2 * std::numbers::pi * (i % nu) / nu, v = 2 * std::numbers::pi * (j % nv) / nv;
     const double ring = major_radius + minor_radius * std::cos(v);
     return GridBuilder::Point{
         {i % nu, j % nv, 0},
@@ -81,8 +79,9 @@ TriangleMesh make_cone(double sector_degrees, int n, int rings) {
   require_segments("cone", {rings});
   require_segments("cone", {n}, 3);
   require(sector_degrees > 0 && sector_degrees < 360, "cone: sector must be in (0, 360) degrees");
-  const double facet = sector_degrees * kPi / 180 / n;  // a facet's angle at the apex
-  const double base = std::sin(facet / 2) / std::sin(kPi / n), depth = std::sqrt(1 - base * base);
+  const double facet = sector_degrees * std::numbers::pi / 180 / n;  // a facet's angle at the apex
+  const double base = std::sin(facet / 2) / std::sin(std::numbers::pi / n),
+               depth = std::sqrt(1 - base * base);
   // The sector's bounding box decides the scale of its chart.
   Vec2 low(0, 0), high(0, 0);
   const auto flat = [&](int i) { return Vec2(std::cos(i * facet), std::sin(i * facet)); };
@@ -93,7 +92,7 @@ TriangleMesh make_cone(double sector_degrees, int n, int rings) {
   // Columns run around, rows from the apex outward; the order (outward, around) winds it outward.
   GridBuilder grid;
   grid.add_chart(rings, n, [&](int ring, int i) {
-    const double t = double(ring) / rings, angle = 2 * kPi * (i % n) / n;
+    const double t = double(ring) / rings, angle = 2 * std::numbers::pi * (i % n) / n;
     const GridBuilder::Key key =
         ring == 0 ? GridBuilder::Key{0, 0, 0} : GridBuilder::Key{ring, i % n, 0};
     return GridBuilder::Point{key, t * Vec3(base * std::cos(angle), base * std::sin(angle), -depth),
@@ -109,7 +108,9 @@ TriangleMesh make_cone(double sector_degrees, int n, int rings) {
   return mesh;
 }
 
-double cylinder_circumference(int n, double radius) { return 2 * n * radius * std::sin(kPi / n); }
+double cylinder_circumference(int n, double radius) {
+  return 2 * n * radius * std::sin(std::numbers::pi / n);
+}
 
 TriangleMesh make_cylinder(int n, int rings, double radius, double height) {
   require_segments("cylinder", {rings});
@@ -120,7 +121,7 @@ TriangleMesh make_cylinder(int n, int rings, double radius, double height) {
   const Vec2 origin = Vec2(0.5, 0.5) - scale / 2 * Vec2(width, height);
   GridBuilder grid;
   grid.add_chart(n, rings, [&](int i, int j) {
-    const double angle = 2 * kPi * (i % n) / n, z = height * (double(j) / rings - 0.5);
+    const double angle = 2 * std::numbers::pi * (i % n) / n, z = height * (double(j) / rings - 0.5);
     return GridBuilder::Point{{i % n, j, 0},
                               {radius * std::cos(angle), radius * std::sin(angle), z},
                               origin + scale * Vec2(width * i / n, height * j / rings)};

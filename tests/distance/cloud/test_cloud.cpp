@@ -43,6 +43,21 @@ double on_book(const Vec3& p, const Vec3& q) {
   return std::hypot(same_page ? a - b : a + b, p.y() - q.y());
 }
 
+// The shortest paths along edges, from every vertex to every other (Floyd & Warshall): no distance
+// on the surface is longer.
+std::vector<std::vector<double>> distances_along_edges(const TriangleMesh& mesh) {
+  const std::size_t n = mesh.positions.size();
+  std::vector<std::vector<double>> d(n, std::vector<double>(n, 1e300));
+  for (std::size_t i = 0; i < n; ++i) d[i][i] = 0;
+  for (const auto& face : mesh.faces)
+    for (const Index a : face)
+      for (const Index b : face) d[a][b] = (mesh.positions[a] - mesh.positions[b]).norm();
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) d[i][j] = std::min(d[i][j], d[i][k] + d[k][j]);
+  return d;
+}
+
 }  // namespace
 
 TEST_CASE("cloud agrees with exact distances on manifold shapes", "[cloud]") {
@@ -65,7 +80,7 @@ TEST_CASE("cloud agrees with exact distances on manifold shapes", "[cloud]") {
   }
 }
 
-TEST_CASE("cloud distances converge with the spacing", "[cloud]") {
+TEST_CASE("cloud distances converge with the spacing", "[cloud][slow]") {
   // Means over the kernel and over its outer part, which is heat's alone, in units of sigma.
   struct Means {
     double kernel = 0, outer = 0;
@@ -180,7 +195,7 @@ TEST_CASE("cloud filters a book close to the definition", "[cloud][accuracy]") {
   }
 }
 
-TEST_CASE("cloud filters close to the definition", "[cloud][accuracy]") {
+TEST_CASE("cloud filters close to the definition", "[cloud][accuracy][slow]") {
   struct Case {
     const char* name;
     TriangleMesh mesh;
@@ -258,8 +273,13 @@ TEST_CASE("cloud does not care how faces are wound", "[cloud]") {
   for (auto& f : mixed.faces)
     if (random() % 2) std::swap(f[0], f[1]);
   const DistanceTable a = cloud_table(mesh, 0.4), b = cloud_table(mixed, 0.4);
-  for (std::size_t i = 0; i < a.squared.size(); ++i)
-    if (a.squared[i] < 0.15F) REQUIRE(std::abs(a.squared[i] - b.squared[i]) < 1e-4);
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < a.squared.size(); ++i) {
+    if (a.squared[i] >= 0.15F) continue;
+    REQUIRE(std::abs(a.squared[i] - b.squared[i]) < 1e-4);
+    ++compared;
+  }
+  CHECK(compared > 10 * mesh.positions.size());
 }
 
 TEST_CASE("parallel sheets closer than the spacing exchange nothing", "[cloud]") {
@@ -361,14 +381,18 @@ TEST_CASE("what faces join is reached over any set of faces", "[cloud]") {
     if (a != b && a != c[0] && b != c[0]) mesh.faces.push_back({a, b, c[0]});
   }
   const DistanceTable table = cloud_table(mesh, 9);
-  double worst = 0;
+  const std::vector<std::vector<double>> along_edges = distances_along_edges(mesh);
+  double longest = 0, shortest = 1e300;  // shares of the way along edges, and of the straight line
   for (Index i = 0; i < table.rows; ++i)
     for (Index j = 0; j < table.columns; ++j) {
-      REQUIRE(std::isfinite(table.row(i)[j]));
       REQUIRE(table.row(i)[j] != kUnreachable);
-      worst = std::max(worst, std::sqrt(double(table.row(i)[j])));
+      if (i == j) continue;
+      const double d = std::sqrt(double(table.row(i)[j]));
+      longest = std::max(longest, d / along_edges[i][j]);
+      shortest = std::min(shortest, d / (mesh.positions[i] - mesh.positions[j]).norm());
     }
-  CHECK(worst < 3.5);
+  CHECK(longest < 1.5);
+  CHECK(shortest > 0.7);
 }
 
 TEST_CASE("a patch of the cloud gives the distances that the whole gives", "[cloud]") {
@@ -378,6 +402,7 @@ TEST_CASE("a patch of the cloud gives the distances that the whole gives", "[clo
   const auto backend = make_cloud(mesh, nodes);
   const DistanceTable all = fill(*backend, whole(nodes), reach);
   double worst = 0;
+  std::size_t compared = 0;
   for (const auto& core : partition_faces(nodes, std::vector<double>(nodes.faces.size(), 1), 150)) {
     const Patch patch =
         grow_patch(nodes, core, reach + backend->margin(reach, nodes.longest_edge()));
@@ -388,9 +413,11 @@ TEST_CASE("a patch of the cloud gives the distances that the whole gives", "[clo
         if (truth > reach * reach) continue;
         REQUIRE(table.row(i)[j] != kUnreachable);
         worst = std::max(worst, std::abs(std::sqrt(double(table.row(i)[j])) - std::sqrt(truth)));
+        ++compared;
       }
   }
   CHECK(worst < 0.01 * h);
+  CHECK(compared > 10 * nodes.nodes.size());
 }
 
 }  // namespace onmesh

@@ -49,8 +49,8 @@ TEST_CASE("most of what is wrong alike along every ray is taken out", "[calibrat
     }
     CAPTURE(source, worst, mean / count);
     CHECK(count > 5);
-    CHECK(worst < 0.4 * bent);
-    CHECK(mean / count < 0.15 * bent);  // of 0.64
+    CHECK(worst < 0.3 * bent);
+    CHECK(mean / count < 0.05 * bent);  // of 0.64
   }
 }
 
@@ -67,9 +67,13 @@ TEST_CASE("what the march did not reach keeps its solution up to a constant", "[
   phi.back() = std::numeric_limits<double>::infinity();
   calibration.complete(0, phi, table.squared.data());
   CHECK(table.row(0)[phi.size() - 1] == kUnreachable);
-  for (Index i = 0; i + 1 < phi.size(); ++i)
-    if (phi[i] + 5 < 8)
-      CHECK(std::sqrt(double(table.row(0)[i])) == Approx(phi[i] + 5).margin(1e-4));
+  int compared = 0;
+  for (Index i = 0; i + 1 < phi.size(); ++i) {
+    if (phi[i] + 5 >= 8) continue;
+    CHECK(std::sqrt(double(table.row(0)[i])) == Approx(phi[i] + 5).margin(1e-4));
+    ++compared;
+  }
+  CHECK(compared > 25);
 }
 
 }  // namespace

@@ -17,8 +17,9 @@ struct NodeKernelState;
 /// a Gaussian of the distances between subnodes, interpolated back and divided. For the bilateral
 /// filter the range kernel is factored over a palette of K colours (see Palette): K such blurs at
 /// once, each of the samples weighted by their likeness to one colour (cf. Durand & Dorsey, Fast
-/// bilateral filtering, 2002; Chen, Paris & Durand, Real-time edge-aware image processing with the
-/// bilateral grid, 2007; Nystrom factorisation as in Nair & Chaudhury 2019).
+/// bilateral filtering for the display of high-dynamic-range images, 2002; Chen, Paris & Durand,
+/// Real-time edge-aware image processing with the bilateral grid, 2007; Nystrom factorisation as in
+/// Nair & Chaudhury, Fast high-dimensional kernel filtering, 2019).
 class NodeKernel {
  public:
   explicit NodeKernel(const KernelOptions& options);
