@@ -1,5 +1,7 @@
-// SIGINT and SIGTERM: the work stops at the next look, and destructors clean up.
+// What signals do: SIGINT, SIGTERM, SIGHUP and SIGQUIT end the program within a second.
 #pragma once
+
+#include <string>
 
 namespace onmesh::tools {
 
@@ -9,11 +11,17 @@ struct Interrupted {
   int signal = 0;
 };
 
-/// From now on SIGINT and SIGTERM only set a flag; a second signal of the kind ends the program.
-void install_signal_handlers();
-/// The signal that came, 0 if none.
-int interrupted();
+/// From now on a thread of its own waits for these signals. The work stops at its next look, and
+/// destructors clean up; if there is none within .8 s the thread removes the temporary files, says
+/// so, and ends the program itself. Signals that the program was started to ignore stay ignored.
+/// Closed pipes and limits on file size are errors of writing, no signals.
+/// \pre no other thread runs
+void install_signal_handling();
+/// What the thread's message begins with.
+void set_program_name(const std::string& name);
 /// \throw Interrupted once a signal came, so that destructors remove temporary files
 void check_interrupted();
+/// "interrupted", "terminated", ...
+const char* signal_word(int signal);
 
 }  // namespace onmesh::tools

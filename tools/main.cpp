@@ -1,5 +1,4 @@
 // The onmesh program: picks the subcommand and turns errors into messages and exit codes.
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <new>
@@ -43,7 +42,8 @@ void print_help(std::ostream& out) {
          "  onmesh COMMAND --help   what a command takes, with examples\n"
          "  onmesh --version        the program's version\n\n"
          "Exit codes: 0 done, 1 a check that was asked for failed, 2 wrong usage, 3 wrong input,\n"
-         "4 a file cannot be read or written, 130 interrupted, 143 terminated.\n";
+         "4 a file cannot be read or written, 128 + N ended by signal N (130 interrupted, 143 "
+         "terminated).\n";
 }
 
 const Subcommand& find_command(const std::string& name) {
@@ -81,6 +81,7 @@ int run(const std::vector<std::string>& arguments, std::string& name) {
   }
   const Subcommand& command = find_command(first);
   name = command.name;
+  set_program_name("onmesh " + name);
   const std::optional<Arguments> parsed = parse(command.describe(), rest);
   return parsed ? command.run(*parsed) : 0;
 }
@@ -100,13 +101,14 @@ int fail(const std::string& name, std::string message, int code) {
 int main(int argc, char** argv) {
   std::string name;
   int code = 0;
-  install_signal_handlers();
+  install_signal_handling();
   try {
     code = run({argv + std::min(argc, 1), argv + argc}, name);
     std::cout.flush();
     if (!std::cout) throw onmesh::FileError("standard output: cannot write");
-  } catch (const Interrupted&) {
+  } catch (const Interrupted& interruption) {
     // The destructors have removed what was half written.
+    code = fail(name, signal_word(interruption.signal), kSignal + interruption.signal);
   } catch (const onmesh::OptionError& error) {
     code = fail(name, flag_of_field(error.option()) + ": " + in_flags(error.problem()), kUsage);
   } catch (const onmesh::UsageError& error) {
@@ -119,10 +121,6 @@ int main(int argc, char** argv) {
     code = fail(name, "not enough memory", kInput);
   } catch (const std::exception& error) {
     code = fail(name, error.what(), kInput);
-  }
-  if (interrupted() != 0) {
-    fail(name, interrupted() == SIGINT ? "interrupted" : "terminated", 0);
-    return kSignal + interrupted();
   }
   return code;
 }

@@ -39,6 +39,16 @@ TEST_CASE("options outside their domain are refused by the names of their fields
   CHECK(refusal([](O& o) { o.bridge = Length{0}; }) == "bridge" + positive);
   CHECK(refusal([](O& o) { o.tolerance = 0; }) == "tolerance" + positive);
   CHECK(refusal([&](O& o) { o.r_coef = nan; }) == "r_coef" + positive);
+  CHECK(refusal([](O& o) { o.sigma_range = 1e60; }) ==
+        "sigma_range: 1e+60 is not between 1e-15 and 1e+15");
+  CHECK(refusal([](O& o) { o.sigma_range = 1e-60; }) ==
+        "sigma_range: 1e-60 is not between 1e-15 and 1e+15");
+  CHECK(refusal([](O& o) {
+          o.sigma_range = 1e60;
+          o.kind = FilterKind::gaussian;
+        }).empty());
+  CHECK(refusal([](O& o) { o.tolerance = 1e9; }) ==
+        "tolerance: 1e+09 is not between 1e-09 and 1000");
   CHECK(refusal([](O& o) { o.threads = -1; }) == "threads" + not_negative);
   CHECK(refusal([](O& o) { o.gutter = -1; }) == "gutter" + not_negative);
   CHECK(refusal([](O& o) { o.faces = {true}; }) ==

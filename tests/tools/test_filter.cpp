@@ -35,14 +35,14 @@ double roughness(const Image& image) {
   return squares / double(image.pixels.size());
 }
 
-/// Whether the process runs the program already, and has set up its own handling of SIGINT.
+/// Whether the process runs the program already, and a thread of its own waits for SIGINT.
 bool catches_interrupts(pid_t process) {
   const std::string folder = "/proc/" + std::to_string(process);
   std::error_code error;
   if (!std::filesystem::equivalent(folder + "/exe", program(), error)) return false;
   std::ifstream status(folder + "/status");
   for (std::string line; std::getline(status, line);) {
-    if (line.rfind("SigCgt:", 0) != 0) continue;
+    if (line.rfind("SigBlk:", 0) != 0) continue;
     return (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1) != 0;
   }
   return false;

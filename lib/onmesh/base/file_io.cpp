@@ -3,10 +3,12 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
+#include "onmesh/base/atomic_file.h"
 #include "onmesh/base/error.h"
 
 namespace onmesh {
@@ -34,11 +36,29 @@ void write_all(int fd, std::string_view content, const fs::path& path) {
   }
 }
 
+/// Pipes and devices are not read any further.
+constexpr std::size_t kLongestStream = std::size_t{512} << 20;
+
 }  // namespace
+
+std::string read_named_file(const fs::path& path, std::uintmax_t largest) {
+  std::error_code error;
+  const auto status = fs::status(path, error);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw FileError(path.string() + ": is not a regular file");
+  }
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (!error && size > largest) {
+    throw FileError(path.string() + ": is larger than the " + std::to_string(largest >> 20) +
+                    " MiB that are read of such a file");
+  }
+  return read_file(path);
+}
 
 std::string read_file(const fs::path& path) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) throw FileError(path.string() + ": is a folder, not a file");
+  const bool regular = fs::is_regular_file(path, ignored);
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
   if (file.fd < 0) fail(path, "cannot open", errno);
   std::string content;
@@ -57,7 +77,11 @@ std::string read_file(const fs::path& path) {
     if (n < 0) fail(path, "cannot read", errno);
     if (n == 0) break;
     used += static_cast<std::size_t>(n);
-    if (used == capacity) capacity *= 2;
+    if (!regular && used >= kLongestStream) {
+      throw FileError(path.string() + ": does not end within 512 MiB; store it in a file");
+    }
+    if (used == capacity)
+      capacity = regular ? 2 * capacity : std::min(2 * capacity, kLongestStream);
   }
   content.resize(used);
   return content;
@@ -73,35 +97,14 @@ void write_file(const fs::path& path, std::string_view content) {
     write_all(file.fd, content, path);
     return;
   }
-  // An existing file that may not be written must not be replaced through its folder either.
-  if (fs::exists(status) && ::access(path.c_str(), W_OK) != 0) {
-    fail(path, "cannot open for writing", errno);
-  }
-  fs::path target = fs::exists(status) ? fs::canonical(path, error) : path;
-  if (error && fs::exists(status)) target = path;
-  static std::atomic<unsigned> counter{0};
-  fs::path temporary = target;
-  temporary += ".tmp" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
-  {
-    Descriptor file{::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)};
-    if (file.fd < 0) fail(path, "cannot open for writing", errno);
-    try {
-      write_all(file.fd, content, path);
-      // Some file systems report a full disk only now.
-      const int fd = file.fd;
-      file.fd = -1;
-      if (::close(fd) != 0) fail(path, "cannot write", errno);
-    } catch (...) {
-      ::unlink(temporary.c_str());
-      throw;
-    }
-  }
-  if (fs::exists(status)) fs::permissions(temporary, status.permissions(), error);
-  if (::rename(temporary.c_str(), target.c_str()) != 0) {
-    const int reason = errno;
-    ::unlink(temporary.c_str());
-    fail(path, "cannot replace", reason);
-  }
+  AtomicFile target(path);
+  Descriptor file{::open(target.temporary().c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC)};
+  if (file.fd < 0) fail(path, "cannot open for writing", errno);
+  write_all(file.fd, content, path);
+  // Some file systems report a full disk only now.
+  const int fd = std::exchange(file.fd, -1);
+  if (::close(fd) != 0) fail(path, "cannot write", errno);
+  target.commit();
 }
 
 }  // namespace onmesh

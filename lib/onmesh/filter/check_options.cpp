@@ -1,23 +1,36 @@
 #include "onmesh/filter/check_options.h"
 
 #include <cmath>
+#include <cstdio>
+#include <string>
 
 #include "onmesh/base/error.h"
 
 namespace onmesh {
 namespace {
 
+/// Squares of values between these, and their reciprocals, hold in single precision.
+constexpr double kLeastValue = 1e-15, kLargestValue = 1e15;
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
 void check_numbers(const FilterOptions& options) {
   const auto check = [](const char* option, const std::optional<Length>& length) {
     if (length) require_positive(option, length->value);
   };
   check("sigma_spatial", options.sigma_spatial);
-  if (options.kind == FilterKind::bilateral) require_positive("sigma_range", options.sigma_range);
+  if (options.kind == FilterKind::bilateral) {
+    require_within("sigma_range", options.sigma_range, kLeastValue, kLargestValue);
+  }
   check("radius", options.radius);
   check("spacing", options.spacing);
-  if (options.r_coef) require_positive("r_coef", *options.r_coef);
+  if (options.r_coef) require_within("r_coef", *options.r_coef, 1e-9, 1e9);
   check("node_spacing", options.node_spacing);
-  require_positive("tolerance", options.tolerance);
+  require_within("tolerance", options.tolerance, 1e-9, 1e3);
   check("bridge", options.bridge);
   if (options.threads < 0) throw OptionError("threads", "must not be negative");
   if (options.gutter < 0) throw OptionError("gutter", "must not be negative");
@@ -39,6 +52,14 @@ void require_positive(const char* option, double value) {
   if (!(value > 0) || !std::isfinite(value)) {
     throw OptionError(option, "must be positive and finite");
   }
+}
+
+void require_within(const char* option, double value, double least, double largest,
+                    const char* of) {
+  require_positive(option, value);
+  if (value >= least && value <= largest) return;
+  throw OptionError(option, number_text(value) + of + " is not between " + number_text(least) +
+                                " and " + number_text(largest));
 }
 
 void check_options(const FilterOptions& options, std::size_t faces) {

@@ -10,6 +10,11 @@ namespace onmesh {
 /// \throw OptionError naming `option` unless the value is positive and finite
 void require_positive(const char* option, double value);
 
+/// \throw OptionError naming `option` and the domain unless least <= value <= largest
+/// \param of what the values are multiples of: " of the mesh's diagonal"; may be empty
+void require_within(const char* option, double value, double least, double largest,
+                    const char* of = "");
+
 /// Refuse options outside their domain, those that exclude each other, and those that the mode
 /// chosen would ignore.
 /// \param faces of the mesh as given

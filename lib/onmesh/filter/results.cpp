@@ -106,11 +106,14 @@ void Results::merge_shared() {
   shared_.merge([&](Index texel, const float* values) { write(texel, values); });
 }
 
-/// Rounding must not leave the samples' range; texels with a value that is not finite stay.
+/// Rounding must not leave the samples' range; texels with a value that is not finite stay. Sums
+/// may overflow where values are as large as single precision has them: these texels stay as well.
 void Results::write(Index texel, const float* values) {
   float* const out = image_.texel(texel);  // as the texture has it
   bool is_finite = true;
-  for (const int c : channels_) is_finite &= std::isfinite(out[c]);
+  for (std::size_t c = 0; c < channels_.size(); ++c) {
+    is_finite &= std::isfinite(out[channels_[c]]) && std::isfinite(values[c]);
+  }
   if (!is_finite) return;
   for (std::size_t c = 0; c < channels_.size(); ++c) {
     out[channels_[c]] = std::clamp(values[c], range_.lowest[c], range_.highest[c]);

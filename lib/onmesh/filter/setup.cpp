@@ -15,9 +15,13 @@ namespace {
 constexpr double kMostNodes = 5e7;
 
 /// In working units.
-double resolve_for(const PreparedMesh& prepared, const WorkingPlan& plan, const Length& length) {
+/// \throw OptionError if it is too small or too large beside the mesh for single precision
+double resolve_for(const PreparedMesh& prepared, const WorkingPlan& plan, const char* option,
+                   const Length& length) {
   const double value = resolve(length, plan.texel_size, plan.diagonal);
-  return length.unit == Length::Unit::mesh ? value / prepared.unit : value;
+  const double working = length.unit == Length::Unit::mesh ? value / prepared.unit : value;
+  require_within(option, working / plan.diagonal, 1e-12, 1e6, " of the mesh's diagonal");
+  return working;
 }
 
 /// All lengths but those of the Poisson samples.
@@ -25,20 +29,22 @@ WorkingPlan plan_lengths(const PreparedMesh& prepared, const FilterOptions& opti
   WorkingPlan plan;
   plan.texel_size = prepared.map.median_texel_size();
   plan.diagonal = prepared.mesh.diagonal();
-  const auto resolved = [&](const Length& length) { return resolve_for(prepared, plan, length); };
-  plan.sigma_spatial = resolved(options.sigma_spatial);
-  require_positive("sigma_spatial", plan.sigma_spatial);
+  const auto resolved = [&](const char* option, const Length& length) {
+    return resolve_for(prepared, plan, option, length);
+  };
+  plan.sigma_spatial = resolved("sigma_spatial", options.sigma_spatial);
   plan.radius = options.radius
-                    ? resolved(*options.radius)
+                    ? resolved("radius", *options.radius)
                     : plan.sigma_spatial * (options.kind == FilterKind::bilateral ? 2.5 : 3.0);
-  if (options.bridge) plan.bridge = resolved(*options.bridge);
+  if (options.bridge) plan.bridge = resolved("bridge", *options.bridge);
   const bool depends_on_spacing = options.distance == DistanceMethod::heat ||
                                   options.distance == DistanceMethod::cloud || plan.bridge > 0 ||
                                   options.kind == FilterKind::gaussian;
   const NodeSpacing rule =
       node_spacing_for(plan.sigma_spatial, plan.radius, plan.texel_size, depends_on_spacing,
                        options.method == FilterMethod::nodes);
-  plan.node_spacing = options.node_spacing ? resolved(*options.node_spacing) : rule.flat;
+  plan.node_spacing =
+      options.node_spacing ? resolved("node_spacing", *options.node_spacing) : rule.flat;
   plan.curved_spacing = options.node_spacing ? plan.node_spacing : rule.curved;
   plan.finest_spacing = options.node_spacing ? plan.node_spacing / 4 : rule.finest;
   for (Index f = 0; f < prepared.mesh.faces.size(); ++f) {
@@ -52,7 +58,7 @@ WorkingPlan plan_lengths(const PreparedMesh& prepared, const FilterOptions& opti
 std::uint64_t plan_poisson(const PreparedMesh& prepared, const FilterOptions& options,
                            WorkingPlan& plan) {
   const SpacingField field =
-      options.spacing  ? SpacingField(resolve_for(prepared, plan, *options.spacing))
+      options.spacing  ? SpacingField(resolve_for(prepared, plan, "spacing", *options.spacing))
       : options.r_coef ? SpacingField(*options.r_coef * prepared.mesh.mean_edge_length())
                        : SpacingField(prepared.mesh, prepared.map);
   plan.sample_spacing = field.least();

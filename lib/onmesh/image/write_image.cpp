@@ -1,17 +1,15 @@
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <OpenImageIO/filesystem.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <random>
 
+#include "onmesh/base/atomic_file.h"
 #include "onmesh/base/error.h"
 #include "onmesh/image/file_format.h"
 #include "onmesh/image/image_io.h"
@@ -127,61 +125,9 @@ void verify(const fs::path& temporary, const fs::path& path, const ImageFormat& 
   }
 }
 
-/// Where the file goes in the end: links are followed, so that they stay links.
-fs::path follow_links(fs::path path) {
-  std::error_code error;
-  for (int i = 0; i < 40 && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
-    const fs::path to = fs::read_symlink(path, error);
-    if (error) break;
-    path = to.is_absolute() ? to : path.parent_path() / to;
-  }
-  return path;
-}
-
 fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
-
-/// An empty file of a name of its own beside the target, removed unless it is renamed.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const fs::path& target, const fs::path& shown) {
-    static std::atomic<unsigned> count{0};
-    std::random_device random;
-    for (int attempt = 0; attempt < 100; ++attempt) {
-      const std::string name = ".onmesh-" + std::to_string(::getpid()) + "-" +
-                               std::to_string(count++) + "-" + std::to_string(random());
-      path_ = folder_of(target) / (name + target.extension().string());
-      const int file = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (file >= 0) {
-        ::close(file);
-        return;
-      }
-      if (errno != EEXIST) break;
-    }
-    const int error = errno;
-    path_.clear();
-    throw FileError(shown.string() + ": cannot write here: " + std::strerror(error));
-  }
-  ~TemporaryFile() {
-    if (!path_.empty()) ::unlink(path_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  const fs::path& path() const { return path_; }
-
-  void rename_to(const fs::path& target, const fs::path& shown) {
-    struct stat before {};
-    if (::stat(target.c_str(), &before) == 0) ::chmod(path_.c_str(), before.st_mode & 07777);
-    if (::rename(path_.c_str(), target.c_str()) != 0)
-      throw FileError(shown.string() + ": cannot replace the file: " + std::strerror(errno));
-    path_.clear();
-  }
-
- private:
-  fs::path path_;
-};
 
 const char* type_words(SampleType type) {
   switch (type) {
@@ -286,15 +232,14 @@ void write_image(const fs::path& path, const Image& image, const ImageWriteOptio
   check_writable_image(path, image);
   const ImageFormat& format = image_format(path);
   const auto types = choose_types(format, image, options);
-  const fs::path target = follow_links(path);
-  TemporaryFile temporary(target, path);
+  AtomicFile file(path);
   try {
-    encode(temporary.path(), path, format, image, types);
-    verify(temporary.path(), path, format, image, types);
+    encode(file.temporary(), path, format, image, types);
+    verify(file.temporary(), path, format, image, types);
   } catch (const std::bad_alloc&) {
     throw FileError(path.string() + ": not enough memory to write the image");
   }
-  temporary.rename_to(target, path);
+  file.commit();
   if (warnings == nullptr) return;
   const auto warn = [&](const std::string& what) {
     warnings->push_back(path.string() + ": " + what);

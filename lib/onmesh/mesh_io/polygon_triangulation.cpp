@@ -49,75 +49,131 @@ std::vector<Vec2> project(const std::vector<Vec3>& corners) {
   return result;
 }
 
-/// Cuts ears off a polygon (Meisters 1975).
+/// Points in square cells, about one in each.
+class PointCells {
+ public:
+  explicit PointCells(const std::vector<Vec2>& points) {
+    low_ = high_ = points[0];
+    for (const Vec2& p : points) {
+      low_ = low_.cwiseMin(p);
+      high_ = high_.cwiseMax(p);
+    }
+    constexpr double kMostCellsAcross = 1024;
+    across_ = Index(std::clamp(std::sqrt(double(points.size())), 1.0, kMostCellsAcross));
+    cells_.resize(std::size_t(across_) * across_);
+    for (Index i = 0; i < points.size(); ++i) {
+      cells_[std::size_t(row(points[i].y())) * across_ + column(points[i].x())].push_back(i);
+    }
+  }
+
+  /// Whether a point in the cells that meet a box satisfies `condition`.
+  template <class Condition>
+  bool any_in_box(const Vec2& low, const Vec2& high, const Condition& condition) const {
+    for (Index y = row(low.y()); y <= row(high.y()); ++y) {
+      for (Index x = column(low.x()); x <= column(high.x()); ++x) {
+        const std::vector<Index>& cell = cells_[std::size_t(y) * across_ + x];
+        if (std::any_of(cell.begin(), cell.end(), condition)) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  Index cell(double value, double low, double high) const {
+    const double share = high > low ? (value - low) / (high - low) : 0;
+    return Index(std::clamp(share * across_, 0.0, double(across_ - 1)));
+  }
+  Index column(double x) const { return cell(x, low_.x(), high_.x()); }
+  Index row(double y) const { return cell(y, low_.y(), high_.y()); }
+
+  Vec2 low_, high_;
+  Index across_ = 1;
+  std::vector<std::vector<Index>> cells_;
+};
+
+/// Cuts ears off a polygon (Meisters 1975). Whether one is free is asked of the corners around it.
 class EarClipping {
  public:
-  explicit EarClipping(std::vector<Vec2> points) : points_(std::move(points)) {
-    for (Index i = 0; i < points_.size(); ++i) ring_.push_back(i);
+  explicit EarClipping(std::vector<Vec2> points) : points_(std::move(points)), cells_(points_) {
+    left_ = points_.size();
+    for (Index i = 0; i < left_; ++i) {
+      next_.push_back((i + 1) % Index(left_));
+      previous_.push_back((i + Index(left_) - 1) % Index(left_));
+    }
+    cut_off_.assign(left_, false);
   }
 
   Triangles run() {
     Triangles result;
-    while (ring_.size() > 3) {
-      const std::size_t ear = find_ear();
-      if (ear == ring_.size()) break;  // crosses itself: what is left is fanned
+    while (left_ > 3) {
+      const Index ear = find_ear();
+      if (ear == kNone) break;  // crosses itself: what is left is fanned
       result.push_back(triangle(ear));
-      ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(ear));
-      start_ = ear;
+      next_[previous_[ear]] = next_[ear];
+      previous_[next_[ear]] = previous_[ear];
+      cut_off_[ear] = true;
+      first_ = first_ == ear ? next_[ear] : first_;
+      start_ = next_[ear];
+      --left_;
     }
-    for (const auto& t : fan(ring_)) result.push_back(t);
+    std::vector<Index> ring(1, first_);
+    for (Index i = next_[first_]; i != first_; i = next_[i]) ring.push_back(i);
+    for (const auto& t : fan(ring)) result.push_back(t);
     return result;
   }
 
  private:
-  std::array<Index, 3> triangle(std::size_t i) const {
-    const std::size_t n = ring_.size();
-    return {ring_[(i + n - 1) % n], ring_[i], ring_[(i + 1) % n]};
-  }
+  std::array<Index, 3> triangle(Index i) const { return {previous_[i], i, next_[i]}; }
 
   /// No other corner lies in the ear; `closed` counts its edges in. Corners on the ear's own
   /// corners do not block: polygons with holes run along their bridges twice.
   bool is_free(const std::array<Index, 3>& t, bool closed) const {
     const Vec2 &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]];
-    return std::none_of(ring_.begin(), ring_.end(), [&](Index i) {
+    const auto blocks = [&](Index i) {
       const Vec2& p = points_[i];
-      if (p == a || p == b || p == c) return false;
+      if (cut_off_[i] || p == a || p == b || p == c) return false;
       const double least =
           std::min({twice_area(a, b, p), twice_area(b, c, p), twice_area(c, a, p)});
       return closed ? least >= 0 : least > 0;
-    });
+    };
+    return !cells_.any_in_box(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c), blocks);
   }
 
   /// The best-shaped ear of a small polygon, the next good one of a large one (a search for the
   /// best would take cubic time); ears without area only when there is no other.
-  std::size_t find_ear() const {
+  Index find_ear() const {
     constexpr std::size_t kSmall = 64;
-    const std::size_t n = ring_.size();
-    std::size_t best = n;
+    Index best = kNone;
     double best_shape = 0;
     for (const bool closed : {true, false}) {
-      for (std::size_t k = 0; k < n; ++k) {
-        const std::size_t i = (start_ + k) % n;
+      Index i = start_;
+      for (std::size_t k = 0; k < left_; ++k, i = next_[i]) {
         const auto t = triangle(i);
         const double s = shape(points_[t[0]], points_[t[1]], points_[t[2]]);
         if (s <= best_shape || !is_free(t, closed)) continue;
         best = i;
         best_shape = s;
-        if (n > kSmall && s > kSliver) return best;
+        if (left_ > kSmall && s > kSliver) return best;
       }
-      if (best != n) return best;
+      if (best != kNone) return best;
     }
-    for (std::size_t i = 0; i < n; ++i) {
+    Index i = first_;
+    for (std::size_t k = 0; k < left_; ++k, i = next_[i]) {
       const auto t = triangle(i);
-      if (twice_area(points_[t[0]], points_[t[1]], points_[t[2]]) == 0 && is_free(t, false))
+      if (twice_area(points_[t[0]], points_[t[1]], points_[t[2]]) == 0 && is_free(t, false)) {
         return i;
+      }
     }
-    return n;
+    return kNone;
   }
 
-  std::vector<Vec2> points_;
-  std::vector<Index> ring_;
-  std::size_t start_ = 0;
+  const std::vector<Vec2> points_;
+  const PointCells cells_;
+  std::size_t left_ = 0;
+  std::vector<Index> next_, previous_;  // of those left
+  std::vector<bool> cut_off_;
+  Index first_ = 0;  // the lowest that is left
+  Index start_ = 0;  // where to look for the next ear
 };
 
 }  // namespace

@@ -52,6 +52,9 @@ std::string_view texture_name(std::string_view line) {
   return line;
 }
 
+/// Bytes.
+constexpr std::uintmax_t kLargestMaterialFile = std::uintmax_t{64} << 20;
+
 class ObjReader {
  public:
   ObjReader(const fs::path& path, const std::string& content, std::vector<std::string>* warnings)
@@ -195,7 +198,7 @@ class ObjReader {
   void read_library(const fs::path& path) {
     std::string content;
     try {
-      content = read_file(path);
+      content = read_named_file(path, kLargestMaterialFile);
     } catch (const FileError& error) {
       warn(std::string("material file ignored: ") + error.what());
       return;

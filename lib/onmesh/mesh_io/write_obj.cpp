@@ -19,7 +19,8 @@ void append_number(std::string& out, double value) {
   out.append(buffer.data(), end);
 }
 
-/// Names end at the line's end and lose blanks at their ends when read.
+/// Names end at the line's end and lose blanks at their ends when read; a backslash there would
+/// join the line with the next.
 std::string line_name(const std::string& name, std::size_t number) {
   std::string result = name;
   for (char& c : result) {
@@ -27,7 +28,9 @@ std::string line_name(const std::string& name, std::size_t number) {
   }
   const std::size_t begin = result.find_first_not_of(" \t");
   if (begin == std::string::npos) return "material_" + std::to_string(number);
-  return result.substr(begin, result.find_last_not_of(" \t") - begin + 1);
+  result = result.substr(begin, result.find_last_not_of(" \t") - begin + 1);
+  if (result.back() == '\\') result += '_';
+  return result;
 }
 
 /// Different materials must not become one: nameless and equal names get a number.
@@ -44,6 +47,12 @@ std::vector<std::string> material_names(const std::vector<Material>& materials) 
   return names;
 }
 
+/// A file's name such that nothing at its beginning is taken for something else.
+std::string file_name(const std::string& name) {
+  const bool plain = name.find_first_of("-#\" \t") != 0;
+  return (plain ? "" : "./") + name;
+}
+
 std::string mtl_content(const TriangleMesh& mesh, const std::vector<std::string>& names,
                         const fs::path& folder) {
   std::string out;
@@ -55,7 +64,7 @@ std::string mtl_content(const TriangleMesh& mesh, const std::vector<std::string>
         fs::relative(mesh.materials[i].texture, folder.empty() ? "." : folder, error);
     const std::string name =
         error || texture.empty() ? mesh.materials[i].texture : texture.string();
-    out += "map_Kd " + std::string(name.starts_with('-') ? "./" : "") + name + "\n";
+    out += "map_Kd " + file_name(name) + "\n";
   }
   return out;
 }
@@ -67,7 +76,7 @@ std::string obj_content(const TriangleMesh& mesh, const std::vector<std::string>
                         const fs::path& mtl) {
   std::string out;
   out.reserve(mesh.positions.size() * 48 + mesh.uvs.size() * 40 + mesh.faces.size() * 40);
-  if (!names.empty()) out += "mtllib " + mtl.filename().string() + "\n";
+  if (!names.empty()) out += "mtllib " + file_name(mtl.filename().string()) + "\n";
   for (const Vec3& p : mesh.positions) {
     out += 'v';
     for (int i = 0; i < 3; ++i) append_number(out += ' ', p[i]);
