@@ -93,6 +93,23 @@ std::int64_t Arguments::integer(const std::string& name, std::int64_t low,
   return number;
 }
 
+std::uint64_t Arguments::bytes(const std::string& name) const {
+  const std::string value = text(name);
+  const char* const last = value.data() + value.size();
+  double number = 0;
+  const auto [end, error] = std::from_chars(value.data(), last, number);
+  const std::string_view unit(end, std::size_t(last - end));
+  constexpr std::string_view kUnits = "KMGT";
+  const std::size_t power = unit.empty() ? 0 : kUnits.find(char(std::toupper(unit[0]))) + 1;
+  const double result = std::ldexp(number, int(10 * power));
+  const bool known = unit.size() <= 1 && (unit.empty() || power > 0) && power <= kUnits.size();
+  if (error != std::errc() || !known || !(result >= 1) || result > 1e18) {
+    throw UsageError(dashed(name) + ": '" + value +
+                     "' is not a number of bytes such as 800M or 8G");
+  }
+  return std::uint64_t(result);
+}
+
 std::vector<double> Arguments::numbers(const std::string& name, std::size_t count) const {
   const std::string whole = text(name);
   std::vector<double> list;

@@ -41,6 +41,9 @@ class Arguments {
 
   /// A finite number; "50/255" is one, too.
   double number(const std::string& name) const;
+  /// A number of bytes: "8G" is 8 * 2^30.
+  /// \throw UsageError if it is none, or less than 1
+  std::uint64_t bytes(const std::string& name) const;
   /// \throw UsageError unless it is in [low, high]
   double number(const std::string& name, double low, double high) const;
   std::int64_t integer(const std::string& name, std::int64_t low, std::int64_t high) const;

@@ -67,6 +67,8 @@ Command filter_command() {
   add("overlap", text("average"), "texels used by several faces: average, first or error");
   add("gutter", text("2"), "rings of texels to fill around charts");
   add("threads", text("0"), "0 = all processors");
+  add("max-memory", text(),
+      "refuse what would take more, such as 8G (default: what there is and what is left)");
   add("dry-run", flag(), "check everything, tell what would be done, write nothing");
   add("json", flag(), "print a report as JSON on stdout");
   add("quiet", flag(), "no progress, summary or warnings");
@@ -119,6 +121,7 @@ FilterOptions filter_options(const Arguments& arguments) {
   options.seed = std::uint64_t(arguments.integer("seed", 0, INT64_MAX));
   options.gutter = int(arguments.integer("gutter", 0, 32768));
   options.threads = int(arguments.integer("threads", 0, 1024));
+  if (arguments.has("max-memory")) options.max_memory = arguments.bytes("max-memory");
   return options;
 }
 
@@ -204,6 +207,9 @@ void tell_plan(const Arguments& arguments, const FilterOptions& options, FilterI
   const FilterPlan plan =
       filtering(inputs, [&] { return plan_filter(inputs.mesh, inputs.texture, options); });
   add_warnings(plan.warnings, inputs.warnings);
+  if (plan.memory_bytes > plan.memory_limit) {
+    inputs.warnings.push_back("the run will be refused: it takes more memory than may be used");
+  }
   if (!arguments.flag("quiet")) warn(inputs.warnings);
   if (!arguments.flag("json")) {
     print_plan(plan, inputs.texture, std::cout);

@@ -77,7 +77,8 @@ json to_json(const FilterPlan& plan) {
           {"overlapped_texels", plan.overlapped},
           {"estimated_samples", plan.samples},
           {"estimated_nodes", plan.nodes},
-          {"estimated_memory_bytes", plan.memory_bytes}};
+          {"estimated_memory_bytes", plan.memory_bytes},
+          {"memory_limit_bytes", plan.memory_limit}};
 }
 
 json to_json(const FilterReport& report) {
@@ -113,7 +114,8 @@ void print_plan(const FilterPlan& plan, const Image& texture, std::ostream& out)
     }
     out << " apart\n";
   }
-  out << "memory        about " << format_bytes(plan.memory_bytes) << '\n';
+  out << "memory        about " << format_bytes(plan.memory_bytes) << " of "
+      << format_bytes(plan.memory_limit) << '\n';
 }
 
 void print_summary(const FilterReport& report, double seconds, std::ostream& out) {

@@ -8,6 +8,7 @@
 #include "flags.h"
 #include "interruption.h"
 #include "onmesh/base/error.h"
+#include "onmesh/base/process_memory.h"
 #include "onmesh/version.h"
 #include "subcommands.h"
 
@@ -118,7 +119,10 @@ int main(int argc, char** argv) {
   } catch (const std::filesystem::filesystem_error& error) {
     code = fail(name, error.path1().string() + ": " + error.code().message(), kFile);
   } catch (const std::bad_alloc&) {
-    code = fail(name, "not enough memory", kInput);
+    code = fail(name,
+                "not enough memory, with " + onmesh::memory_text(onmesh::resident_memory_bytes()) +
+                    " in use",
+                kInput);
   } catch (const std::exception& error) {
     code = fail(name, error.what(), kInput);
   }

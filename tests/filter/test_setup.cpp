@@ -52,6 +52,23 @@ TEST_CASE("the plan tells what the filter then does", "[setup][filter][slow]") {
   CHECK(stages == std::vector<std::string>{"texel map", "refine", "samples", "filter", "gutter"});
 }
 
+TEST_CASE("runs that take more memory than they may are refused before the work", "[setup]") {
+  const TriangleMesh mesh = make_plane(1, 1);
+  const Image texture = make_texture(64, 64, Pattern::checker, 0.3, 7);
+  FilterOptions options = options_for(SampleKind::texel);
+  const FilterPlan plan = plan_filter(mesh, texture, options);
+  CHECK(plan.memory_bytes > 2 * 64 * 64 * 3 * sizeof(float));
+  CHECK(plan.memory_bytes < plan.memory_limit);
+  options.max_memory = plan.memory_bytes;
+  FilterReport report;
+  filter(mesh, texture, options, &report);
+  options.max_memory = plan.memory_bytes - 1;
+  CHECK_THROWS_AS(filter(mesh, texture, options), InputError);
+  CHECK_THROWS_WITH(filter(mesh, texture, options),
+                    Catch::Contains("of memory") && Catch::Contains("may be used"));
+  CHECK(plan_filter(mesh, texture, options).memory_limit == options.max_memory);
+}
+
 TEST_CASE("spacings are set for Poisson samples alone", "[setup]") {
   const TriangleMesh mesh = make_cube();
   const Image texture = make_image(96, 72, 3);

@@ -102,3 +102,34 @@ TEST_CASE("polygons that have no proper triangulation still give n - 2 triangles
   }
   CHECK(triangulate_polygon({{0, 0, 0}, {1, 0, 0}}).empty());
 }
+
+TEST_CASE("spirals and stars of thousands of corners are covered by their triangles",
+          "[polygon_triangulation]") {
+  const int n = 6000;
+  std::vector<Vec3> spiral, star;
+  for (int i = 0; i < n; ++i) {
+    const int k = i < n / 2 ? i : n - 1 - i;
+    const double r = 1 + k * 0.01 + (i < n / 2 ? 0.005 : 0);
+    spiral.emplace_back(r * std::cos(k * 0.1), r * std::sin(k * 0.1), 0);
+    const double t = 2 * std::numbers::pi * i / n, s = i % 2 ? 1 : 0.3;
+    star.emplace_back(s * std::cos(t), s * std::sin(t), 0);
+  }
+  for (const std::vector<Vec3>& polygon : {spiral, star}) {
+    const std::vector<Face> faces = triangulate_polygon(polygon);
+    CHECK(faces.size() == polygon.size() - 2);
+    const auto [area, least] = areas(polygon, faces);
+    CHECK(area == Approx(polygon_area(polygon)));
+    CHECK(least > 0);
+  }
+}
+
+TEST_CASE("a polygon of thousands of corners that crosses itself is still n - 2 triangles",
+          "[polygon_triangulation]") {
+  const int n = 2000;
+  std::vector<Vec3> polygon;
+  for (int i = 0; i < n; ++i) {
+    const double t = 2 * std::numbers::pi * i * (n / 2 - 1) / n;
+    polygon.emplace_back(std::cos(t), std::sin(t), 0);
+  }
+  CHECK(triangulate_polygon(polygon).size() == polygon.size() - 2);
+}

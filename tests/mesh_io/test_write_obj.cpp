@@ -49,3 +49,33 @@ TEST_CASE("a written OBJ reads back bit for bit", "[write_obj]") {
   // Nothing but the two files is left.
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 3);
 }
+
+TEST_CASE("names that an OBJ would take for something else keep their faces", "[write_obj]") {
+  const TempFolder folder;
+  folder.file("-s 1.png", "");
+  folder.file("#1.png", "");
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.materials = {{"ends with a backslash\\", (folder.path() / "-s 1.png").string()},
+                    {"ends with a backslash\\_", (folder.path() / "#1.png").string()},
+                    {"\\", ""},
+                    {"# no comment", ""}};
+  for (Index m = 0; m < 4; ++m) {
+    mesh.faces.push_back({0, 1, 2});
+    mesh.face_uvs.push_back({kNone, kNone, kNone});
+    mesh.face_materials.push_back(m);
+  }
+  for (const char* name : {"out.obj", "-out.obj", "# out.obj"}) {
+    INFO(name);
+    write_obj(folder.path() / name, mesh);
+    std::vector<std::string> warnings;
+    const TriangleMesh back = read_mesh(folder.path() / name, &warnings);
+    CHECK(warnings.empty());
+    CHECK(back.faces.size() == 4);
+    CHECK(back.face_materials == mesh.face_materials);
+    REQUIRE(back.materials.size() == 4);
+    CHECK(back.materials[0].texture == mesh.materials[0].texture);
+    CHECK(back.materials[1].texture == mesh.materials[1].texture);
+    CHECK(back.materials[3].name == mesh.materials[3].name);
+  }
+}

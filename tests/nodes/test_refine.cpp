@@ -182,6 +182,27 @@ TEST_CASE("nodes are few where none are needed, and as dense as ever within reac
   }
 }
 
+TEST_CASE("spikes and strips have no more nodes than are of use", "[refine]") {
+  // What is useful grows with the stretch of what the faces carry: a hundredth of their length.
+  for (const double height : {1e2, 1e4, 1e6, 1e12}) {
+    TriangleMesh mesh = bare_mesh({{0, 0, 0}, {0.25, 0, 0}, {0, 0.25, height}, {0.25, 0.25, 0}},
+                                  {{0, 1, 2}, {1, 3, 2}});
+    RefineOptions options;
+    options.spacing = 0.1;
+    options.least_useful = {height / 100, height / 100};
+    for (const bool flat : {false, true}) {
+      options.flat_faces = flat;
+      CleanReport cleaning;
+      const TriangleMesh cleaned = clean(mesh, &cleaning);
+      RefineReport report;
+      const NodeSurface surface = refine(cleaned, cleaning, options, &report);
+      CAPTURE(height, flat, report.nodes);
+      CHECK(report.nodes < 6000);
+      CHECK(area_of(surface.nodes) == Approx(area_of(mesh)).epsilon(1e-6));
+    }
+  }
+}
+
 TEST_CASE("only meshes whose faces must stay flat are bisected", "[refine]") {
   RefineOptions options;
   options.spacing = 0.3;

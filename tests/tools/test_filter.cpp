@@ -1,15 +1,8 @@
 // filter from end to end.
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <string>
-#include <thread>
 
 #include "onmesh/image/image_io.h"
 #include "support/paths.h"
@@ -33,19 +26,6 @@ double roughness(const Image& image) {
         squares += step * step;
       }
   return squares / double(image.pixels.size());
-}
-
-/// Whether the process runs the program already, and a thread of its own waits for SIGINT.
-bool catches_interrupts(pid_t process) {
-  const std::string folder = "/proc/" + std::to_string(process);
-  std::error_code error;
-  if (!std::filesystem::equivalent(folder + "/exe", program(), error)) return false;
-  std::ifstream status(folder + "/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.rfind("SigBlk:", 0) != 0) continue;
-    return (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1) != 0;
-  }
-  return false;
 }
 
 }  // namespace
@@ -208,35 +188,6 @@ TEST_CASE("filter --json reports what was done under fixed names", "[tools][filt
   CHECK(json["lengths"]["radius"].get<double>() == Approx(0.25));
   const auto map = space.must("map m.obj -o map.exr --json").json();
   CHECK(json["counts"]["texels"] == map["covered"]);
-}
-
-TEST_CASE("an interrupted run leaves the target as it was and nothing else behind",
-          "[tools][filter]") {
-  const Workspace space;
-  space.must("make-mesh noisy-cube -o m.obj -t m.png --size 1024");
-  space.file("o.png", "what was there before");
-  const auto files = space.files();
-  const pid_t child = ::fork();
-  REQUIRE(child >= 0);
-  if (child == 0) {
-    const std::string mesh = (space / "m.obj").string(), out = (space / "o.png").string();
-    // Far more work than the time until the signal.
-    ::execl(program().c_str(), "onmesh", "filter", mesh.c_str(), "-o", out.c_str(), "--quiet",
-            "--sigma-spatial", "30tx", nullptr);
-    ::_exit(99);
-  }
-  const auto wait = [](int milliseconds) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
-  };
-  for (int i = 0; i < 6000 && !catches_interrupts(child); ++i) wait(10);
-  wait(700);
-  ::kill(child, SIGINT);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  REQUIRE(WIFEXITED(status));
-  CHECK(WEXITSTATUS(status) == 130);
-  CHECK(space.files() == files);
-  CHECK(content_of(space / "o.png") == "what was there before");
 }
 
 TEST_CASE("a filter and its samples are measured by the commands that follow", "[tools][filter]") {

@@ -2,6 +2,9 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -12,9 +15,11 @@
 namespace onmesh {
 namespace {
 
-/// A line of /proc/self/status in bytes, 0 if it is not there.
-std::uint64_t status_bytes(const std::string& name) {
-  std::ifstream status("/proc/self/status");
+constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 63;
+
+/// A line of a file such as /proc/self/status in bytes, 0 if it is not there.
+std::uint64_t line_bytes(const char* file, const std::string& name) {
+  std::ifstream status(file);
   for (std::string word; status >> word;) {
     std::uint64_t kilobytes = 0;
     if (word == name + ':' && status >> kilobytes) return 1024 * kilobytes;
@@ -22,7 +27,59 @@ std::uint64_t status_bytes(const std::string& name) {
   return 0;
 }
 
+std::uint64_t status_bytes(const std::string& name) {
+  return line_bytes("/proc/self/status", name);
+}
+
+/// A file's number; unlimited if it has none ("max") or is not there.
+std::uint64_t number_in(const std::filesystem::path& file) {
+  std::uint64_t number = 0;
+  return std::ifstream(file) >> number ? number : kUnlimited;
+}
+
+/// What the control group that this process is in, and those that hold it, leave.
+std::uint64_t left_by_groups() {
+  namespace fs = std::filesystem;
+  const fs::path root = "/sys/fs/cgroup";
+  std::string line;
+  std::ifstream own("/proc/self/cgroup");
+  while (std::getline(own, line) && line.rfind("0::/", 0) != 0) {
+  }
+  std::uint64_t left = kUnlimited;
+  fs::path group = line.size() > 4 ? root / line.substr(4) : root;
+  for (;; group = group.parent_path()) {
+    const std::uint64_t most = number_in(group / "memory.max");
+    if (most < kUnlimited) {
+      const std::uint64_t used = number_in(group / "memory.current");
+      left = std::min(left, most > used ? most - used : 0);
+    }
+    if (group == root || !group.has_relative_path()) return left;
+  }
+}
+
+std::uint64_t left_of_address_space() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kUnlimited;
+  const std::uint64_t used = status_bytes("VmSize");
+  return limit.rlim_cur > used ? limit.rlim_cur - used : 0;
+}
+
 }  // namespace
+
+std::uint64_t resident_memory_bytes() { return status_bytes("VmRSS"); }
+
+std::uint64_t available_memory_bytes() {
+  const std::uint64_t machine = line_bytes("/proc/meminfo", "MemAvailable");
+  return std::min({machine > 0 ? machine : kUnlimited, left_by_groups(), left_of_address_space()});
+}
+
+std::string memory_text(std::uint64_t bytes) {
+  char text[32];
+  const bool large = bytes >= 1'000'000'000;
+  std::snprintf(text, sizeof text, "%.1f %s", double(bytes) / (large ? 1e9 : 1e6),
+                large ? "GB" : "MB");
+  return text;
+}
 
 std::uint64_t peak_memory_bytes() {
   // getrusage() would count what ran in this process before the program did (execve(2)).

@@ -12,6 +12,7 @@
 
 #include "onmesh/atlas/gutter.h"
 #include "onmesh/base/face_error.h"
+#include "onmesh/base/process_memory.h"
 #include "onmesh/distance/make_backend.h"
 #include "onmesh/filter/draw_samples.h"
 #include "onmesh/filter/node_spacing.h"
@@ -155,6 +156,7 @@ Image run_filter(const TriangleMesh& mesh, const Image& texture, const FilterOpt
   Stages stages(report, progress);
   stages.begin("texel map");
   const FilterSetup setup = set_up_filter(mesh, texture, options);
+  require_memory(setup.mesh_plan);
   note_plan(setup.mesh_plan, report);
   stages.end();
 
@@ -200,7 +202,12 @@ Image filter(const TriangleMesh& mesh, const Image& texture, const FilterOptions
     more.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
   }
   tbb::task_arena arena(threads);
-  return arena.execute([&] { return run_filter(mesh, texture, options, out, progress); });
+  try {
+    return arena.execute([&] { return run_filter(mesh, texture, options, out, progress); });
+  } catch (const std::bad_alloc&) {
+    throw InputError("out of memory, with " + memory_text(resident_memory_bytes()) +
+                     " in use; choose a larger node spacing or a smaller texture");
+  }
 }
 
 FilterPlan plan_filter(const TriangleMesh& mesh, const Image& texture,

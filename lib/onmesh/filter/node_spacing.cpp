@@ -12,6 +12,23 @@ namespace {
 /// and radius 20 texels distances are off by less than a hundredth of a texel.
 constexpr double kFlatness = 0.0072;
 
+/// Along the longer side of a texel, so many nodes are of use.
+constexpr double kNodesPerTexel = 4;
+
+/// The longest side of a face's texels on the surface, working units; 0 where it has none.
+double longest_texel_side(const PreparedMesh& prepared, Index face) {
+  if (!(prepared.map.texel_area[face] > 0)) return 0;
+  const auto corner = prepared.mesh.corners(face);
+  const Eigen::Matrix3d& rates = prepared.map.to_barycentric(face);
+  Eigen::Matrix3d corners;
+  for (int k = 0; k < 3; ++k) corners.col(k) = corner[std::size_t(k)];
+  const Eigen::Matrix<double, 3, 2> sides = corners * rates.leftCols<2>();
+  // The larger singular value.
+  const double a = sides.col(0).squaredNorm(), b = sides.col(1).squaredNorm();
+  const double c = sides.col(0).dot(sides.col(1));
+  return std::sqrt((a + b) / 2 + std::hypot((a - b) / 2, c));
+}
+
 }  // namespace
 
 NodeSpacing node_spacing_for(double sigma, double radius, double texel_size,
@@ -35,6 +52,9 @@ RefineOptions refinement_for(const PreparedMesh& prepared, const WorkingPlan& pl
   options.flat_faces = plan.bridge > 0;
   options.needed.reserve(prepared.mesh.faces.size());
   for (const double area : prepared.map.texel_area) options.needed.push_back(area > 0);
+  for (Index f = 0; f < prepared.mesh.faces.size(); ++f) {
+    options.least_useful.push_back(longest_texel_side(prepared, f) / kNodesPerTexel);
+  }
   // Patches reach three edges beyond the radius, from node faces that reach an edge beyond the
   // texels; some more keep the faces there as small as they are where the spacing is not yet
   // larger.
@@ -48,7 +68,10 @@ double estimate_nodes(const TriangleMesh& mesh, const RefineOptions& refinement)
   const Remoteness remoteness(mesh, refinement);
   double nodes = double(mesh.positions.size());
   for (Index f = 0; f < mesh.faces.size(); ++f) {
-    const double spacing = refinement.curved + remoteness({f, Vec3::Constant(1.0 / 3)});
+    const SurfacePoint middle{f, Vec3::Constant(1.0 / 3)};
+    const double useful = largest_spacing(refinement, middle);
+    const double spacing =
+        (useful > refinement.spacing ? useful : refinement.curved) + remoteness(middle);
     nodes += 1.2 * mesh.face_area(f) / (spacing * spacing * std::numbers::sqrt3 / 2);
   }
   return nodes;

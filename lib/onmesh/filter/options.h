@@ -73,6 +73,8 @@ struct FilterOptions {
   /// Per face of the mesh as given: whether it carries the texture. Empty = all faces with UVs.
   std::vector<bool> faces;
   int threads = 0;  ///< >= 0; 0 = as many as there are processors
+  /// Runs that would take more memory are refused, bytes; 0 = what there is and what is left.
+  std::uint64_t max_memory = 0;
 };
 
 }  // namespace onmesh

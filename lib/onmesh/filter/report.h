@@ -26,6 +26,7 @@ struct FilterPlan {
   std::uint64_t nodes = 0;         ///< estimate
   std::uint64_t samples = 0;       ///< estimate
   std::uint64_t memory_bytes = 0;  ///< estimate of the largest resident set
+  std::uint64_t memory_limit = 0;  ///< bytes that may be resident
   /// What is odd about the mesh, a line each.
   std::vector<std::string> warnings;
 };

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "onmesh/base/error.h"
+#include "onmesh/base/process_memory.h"
 #include "onmesh/base/text.h"
 #include "onmesh/filter/check_options.h"
 #include "onmesh/filter/node_spacing.h"
@@ -90,7 +91,20 @@ std::uint64_t estimate_memory(const Image& texture, const FilterPlan& plan) {
                                     kBytesPerNode * double(plan.nodes));
 }
 
+std::uint64_t memory_limit(const FilterOptions& options) {
+  if (options.max_memory > 0) return options.max_memory;
+  return resident_memory_bytes() + available_memory_bytes();
+}
+
 }  // namespace
+
+void require_memory(const FilterPlan& plan) {
+  if (plan.memory_bytes <= plan.memory_limit) return;
+  throw InputError("would take about " + memory_text(plan.memory_bytes) + " of memory, and " +
+                   memory_text(plan.memory_limit) +
+                   " may be used; choose a larger node spacing or a smaller texture, or allow more "
+                   "with max_memory=bytes");
+}
 
 FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
                           const FilterOptions& options) {
@@ -116,6 +130,7 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   plan.samples = samples;
   plan.nodes = nodes;
   plan.memory_bytes = estimate_memory(texture, plan);
+  plan.memory_limit = memory_limit(options);
   plan.warnings = std::move(setup.warnings);
   return setup;
 }

@@ -2,6 +2,7 @@
 #include <new>
 
 #include "onmesh/base/error.h"
+#include "onmesh/base/process_memory.h"
 #include "onmesh/image/image_io.h"
 #include "onmesh/image/image_reader.h"
 
@@ -24,6 +25,12 @@ Image read_image(const std::filesystem::path& path) {
     const bool keep_native =
         !std::all_of(source->types.begin(), source->types.end(), survives_float);
     const std::size_t pixels = std::size_t(spec.width) * std::size_t(spec.height);
+    const std::uint64_t bytes = pixels * (std::size_t(spec.nchannels) * sizeof(float) +
+                                          (keep_native ? pixel_bytes(source->types) : 0));
+    if (const std::uint64_t left = available_memory_bytes(); bytes > left) {
+      throw InputError(path.string() + ": would take " + memory_text(bytes) + " of memory, and " +
+                       memory_text(left) + " are left");
+    }
     // Reserved memory is not touched before its rows have been decoded, so that a small file that
     // claims to be huge costs nothing.
     image.pixels.reserve(pixels * std::size_t(spec.nchannels));

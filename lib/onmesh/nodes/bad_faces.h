@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "onmesh/base/types.h"
@@ -19,10 +20,11 @@ class BadFaces {
   static constexpr int kFront = 0;
   static constexpr int kClasses = 64;
   static constexpr int kThin = kClasses - 1;
+  static constexpr double kLargestSize = double(std::uint64_t{1} << (kThin - 2));  ///< squared
   /// The class of a large face that is not at the front: the smallest come first, so that one place
   /// is refined until a front starts from there.
   /// \param size circumradius as a share of the largest one allowed, > 1
-  static int large(double size) { return std::min(1 + std::ilogb(size * size), kThin - 1); }
+  static int large(double size) { return 1 + std::ilogb(std::min(size * size, kLargestSize)); }
 
   void push(Index face, int face_class) {
     classes_[std::size_t(face_class)].push_back(face);

@@ -176,22 +176,21 @@ class Bisection {
     const auto [a, b] = edges_[edge].ends;
     const double half = edges_[edge].length / 2;
     const Vec3 position = (positions_[a] + positions_[b]) / 2;
-    double spacing = std::min(
-        {options_.spacing, near_[a] + options_.growth * half, near_[b] + options_.growth * half});
+    double allowed = std::min(near_[a], near_[b]) + options_.growth * half;
     Index lowest =
         kNone;  // of the sides: where the node is said to lie must not hang on their order
     for (Index s = edges_[edge].first_side; s != kNone; s = next_side_[s]) {
       const Index apex = faces_[s / 3].nodes[(s % 3 + 2) % 3];
-      spacing =
-          std::min(spacing, near_[apex] + options_.growth * (positions_[apex] - position).norm());
+      allowed =
+          std::min(allowed, near_[apex] + options_.growth * (positions_[apex] - position).norm());
       lowest = std::min(lowest, s);
     }
     const Face& face = faces_[lowest / 3];
     const Vec2 at = (face.at[lowest % 3] + face.at[(lowest % 3 + 1) % 3]) / 2;
     nodes_.push_back({face.input, to_barycentric(at)});
     positions_.push_back(position);
-    near_.push_back(spacing);
-    wanted_.push_back(spacing + remoteness_(nodes_.back()));
+    near_.push_back(std::min(allowed, largest_spacing(options_, nodes_.back())));
+    wanted_.push_back(near_.back() + remoteness_(nodes_.back()));
     return static_cast<Index>(nodes_.size() - 1);
   }
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
 #include "onmesh/base/error.h"
 #include "onmesh/nodes/bad_faces.h"
+#include "onmesh/nodes/sizing_field.h"
 
 namespace onmesh {
 namespace {
@@ -27,6 +29,8 @@ constexpr double kShortestBoundaryEdge = 0.01;
 constexpr double kFinestCircumradius = 1e-3;
 // Lengths that differ by less are equal: on regular meshes many are, and rounding must not decide.
 constexpr double kSame = 1e-9;
+// Nodes for the sake of shape end at so many times those for the sake of size.
+constexpr Index kNodesForShape = 4;
 // A circumcentre whose barycentric coordinate is below this goes onto the edge.
 constexpr double kOnEdge = 1e-3;
 
@@ -51,6 +55,7 @@ class Refiner {
     Index face = kNone;
     for (int face_class = 0; bad_.pop(face, face_class);) {
       if (class_of(face) != face_class) continue;  // has changed since
+      if (face_class == BadFaces::kThin && !may_insert_for_shape()) continue;
       if (t_.node_count() >= options_.max_nodes) {
         throw InputError("the node spacing would need more than " +
                          std::to_string(options_.max_nodes) + " nodes");
@@ -77,6 +82,13 @@ class Refiner {
 
   bool is_needle(Index node) const {
     return node < t_.input().vertex_count() && t_.total_angle(node) < std::numbers::pi / 3 + 1e-9;
+  }
+
+  // Good shapes need some more nodes than the right sizes do. Where a surface is a needle or a
+  // strip beside its length they would need any number: these stay thin.
+  bool may_insert_for_shape() {
+    if (sized_nodes_ == 0) sized_nodes_ = t_.node_count();
+    return t_.node_count() < kNodesForShape * sized_nodes_ + 1000;
   }
 
   // Nothing is asked of the shape of faces where no nodes are needed.
@@ -221,7 +233,7 @@ class Refiner {
     Vec3 b = point.barycentric;
     const std::array<Vec2, 3> at = e.layout(g);
     const Vec2 x = at[0] * b[0] + at[1] * b[1] + at[2] * b[2];
-    double spacing = options_.spacing;
+    double spacing = std::numeric_limits<double>::infinity();
     for (Index k = 0; k < 3; ++k) {
       spacing = std::min(spacing, near_[e.tail[3 * g + k]] + options_.growth * (x - at[k]).norm());
     }
@@ -245,8 +257,7 @@ class Refiner {
     const Index a = e.tail[h], b = e.tip(h);
     const double half = 0.5 * e.length[h];
     if (2 * half < kShortestBoundaryEdge * std::min(wanted_[a], wanted_[b])) return false;
-    const double spacing =
-        std::min(options_.spacing, std::min(near_[a], near_[b]) + options_.growth * half);
+    const double spacing = std::min(near_[a], near_[b]) + options_.growth * half;
     const std::span<const CutEdges::Side> sides = cuts_.sides(a);
     if (sides.empty()) {
       t_.split(h, 0.5);
@@ -262,11 +273,13 @@ class Refiner {
     return true;
   }
 
-  // Give the node that was inserted last its spacing, and mend the faces around it.
-  void finish(double spacing) {
+  // Give the node that was inserted last its spacing, by what its neighbours allow, and mend the
+  // faces around it.
+  void finish(double allowed) {
     const Index node = t_.node_count() - 1;
-    near_.push_back(spacing);
-    wanted_.push_back(spacing + remoteness_(t_.location(node)));
+    const SurfacePoint& location = t_.location(node);
+    near_.push_back(std::min(allowed, largest_spacing(options_, location)));
+    wanted_.push_back(near_.back() + remoteness_(location));
     flips_ += t_.restore_delaunay(node);
     Index spoke = t_.outgoing(node);
     do {
@@ -293,6 +306,7 @@ class Refiner {
   CutEdges& cuts_;
   BadFaces bad_;
   Index flips_ = 0;
+  Index sized_nodes_ = 0;  // nodes once all faces were small enough for the first time
 };
 
 }  // namespace

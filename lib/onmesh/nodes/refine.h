@@ -39,6 +39,10 @@ struct RefineOptions {
   std::vector<bool> needed;
   /// See `needed`, >= 0.
   double reach = 0;
+  /// Per face: no closer spacing is of use there but where distances bend. Away from its corners
+  /// the spacing grows up to this, if it is larger than `spacing`; so stretched faces have no more
+  /// nodes than what they carry can tell apart. Empty = 0 everywhere.
+  std::vector<double> least_useful;
   /// Stop with an InputError beyond so many.
   Index max_nodes = 200'000'000;
 };

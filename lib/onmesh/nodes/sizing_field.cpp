@@ -212,6 +212,11 @@ void check_spacing(const RefineOptions& options) {
   }
 }
 
+double largest_spacing(const RefineOptions& options, const SurfacePoint& point) {
+  if (options.least_useful.empty() || point.face == kNone) return options.spacing;
+  return std::max(options.spacing, options.least_useful[point.face]);
+}
+
 std::vector<double> wanted_spacing(const TriangleMesh& mesh, const EdgeTable& edges,
                                    const RefineOptions& options) {
   const std::vector<Around> around = look_around(mesh, edges);

@@ -14,6 +14,10 @@ namespace onmesh {
 /// \throw UsageError if options.spacing is not positive and finite
 void check_spacing(const RefineOptions& options);
 
+/// The largest spacing that is of use at a point: options.spacing, or what options.least_useful has
+/// for its face.
+double largest_spacing(const RefineOptions& options, const SurfacePoint& point);
+
 /// The spacing wanted at every vertex: options.spacing where the surface is flat, less where it is
 /// curved and where distances bend, growing away from there along the mesh's edges by
 /// options.growth per unit of length (Borouchaki, Hecht & Frey, Mesh gradation control, 1998).
