@@ -73,7 +73,7 @@ void report_errors(benchmark::State& state, const Scene& s, const Patch& patch,
     one.nodes = patch.nodes;
     one.nodes.insert(one.nodes.begin(), patch.nodes[i]);
     DistanceTable truth;
-    exact->fill(one, s.radius, truth);
+    exact->fill(one, Reach::up_to(s.radius), truth);
     for (Index j = 0; j < table.columns; ++j) {
       const double d = std::sqrt(truth.row(0)[j + 1]);
       if (d > s.radius) continue;
@@ -95,7 +95,7 @@ void fill_table(benchmark::State& state, DistanceMethod method) {
       grow_patch(s.nodes, core, s.reach + backend->margin(s.reach, s.nodes.longest_edge()));
   DistanceTable table;
   for (auto _ : state) {
-    backend->fill(patch, s.reach, table);
+    backend->fill(patch, {s.radius, s.reach}, table);
     benchmark::DoNotOptimize(table.squared.data());
   }
   state.SetLabel(kShapes[state.range(0)]);

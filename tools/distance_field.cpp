@@ -158,7 +158,7 @@ std::vector<double> node_distances(const TriangleMesh& mesh, const NodeSurface& 
   }
   const Patch patch = grow_patch(nodes, {start.face}, reach + backend->margin(reach, longest));
   DistanceTable table;
-  backend->fill(patch, reach, table);
+  backend->fill(patch, {std::min(radius, reach), reach}, table);
   const std::vector<double> local = distances_from(patch, table, 0, start.barycentric);
   std::vector<double> distances(nodes.nodes.size(), kNaN);
   for (std::size_t i = 0; i < local.size(); ++i) {

@@ -23,9 +23,9 @@ class Truth final : public DistanceBackend {
   }
   std::string_view name() const override { return "exact"; }
   double margin(double, double) const override { return 0; }
-  void fill(const Patch& patch, double reach, DistanceTable& table) const override {
+  void fill(const Patch& patch, const Reach& reach, DistanceTable& table) const override {
     const auto& nodes = scene_.surface.nodes.nodes;
-    const Distances truth = scene_.truth(reach);
+    const Distances truth = scene_.truth(reach.table);
     table.rows = patch.core_nodes;
     table.columns = Index(patch.nodes.size());
     table.squared.assign(std::size_t(table.rows) * table.columns, kUnreachable);
@@ -35,14 +35,15 @@ class Truth final : public DistanceBackend {
       targets.clear();
       columns.clear();
       for (Index j = 0; j < table.columns; ++j) {
-        if ((positions_[patch.nodes[i]] - positions_[patch.nodes[j]]).norm() > reach) continue;
+        if ((positions_[patch.nodes[i]] - positions_[patch.nodes[j]]).norm() > reach.table)
+          continue;
         targets.push_back(nodes[patch.nodes[j]]);
         columns.push_back(j);
       }
       const std::vector<double> d = truth(nodes[patch.nodes[i]], targets);
       float* const row = table.squared.data() + std::size_t(i) * table.columns;
       for (std::size_t k = 0; k < d.size(); ++k) {
-        if (d[k] <= reach) row[columns[k]] = float(d[k] * d[k]);
+        if (d[k] <= reach.table) row[columns[k]] = float(d[k] * d[k]);
       }
     }
   }

@@ -31,7 +31,7 @@ void Observer::record(double radius, NodeTruth& truth) {
   record_radius_ = radius;
 }
 
-void Observer::fill(const Patch& patch, double reach, DistanceTable& table) const {
+void Observer::fill(const Patch& patch, const Reach& reach, DistanceTable& table) const {
   if (std::all_of(patch.faces.begin(), patch.faces.begin() + patch.core_faces,
                   [this](Index f) { return tried_in_face_[f].empty(); })) {
     table.rows = patch.core_nodes;
@@ -47,7 +47,7 @@ void Observer::fill(const Patch& patch, double reach, DistanceTable& table) cons
   look_up(patch, table);
 }
 
-void Observer::measure(const Patch& patch, double reach, DistanceTable& table) const {
+void Observer::measure(const Patch& patch, const Reach& reach, DistanceTable& table) const {
   constexpr Index kFewRows = 16;  // what back ends work on at a time
   Patch small = patch;
   small.core_nodes = std::min(kFewRows, patch.core_nodes);

@@ -45,7 +45,7 @@ class Observer final : public DistanceBackend {
   double margin(double reach, double longest_edge) const override {
     return backend_.margin(reach, longest_edge);
   }
-  void fill(const Patch& patch, double reach, DistanceTable& table) const override;
+  void fill(const Patch& patch, const Reach& reach, DistanceTable& table) const override;
 
   /// Per tried texel, as in its neighbourhood; NaN = unreachable.
   const std::vector<std::vector<double>>& distances() const { return distances_; }
@@ -56,7 +56,7 @@ class Observer final : public DistanceBackend {
 
  private:
   /// Precomputation is what a table of few rows costs, less those rows.
-  void measure(const Patch& patch, double reach, DistanceTable& table) const;
+  void measure(const Patch& patch, const Reach& reach, DistanceTable& table) const;
 
   void look_up(const Patch& patch, const DistanceTable& table) const;
 

@@ -64,8 +64,8 @@ TEST_CASE("the exact back end finds in its cut-out what the whole mesh has", "[e
   const Patch patch = grow_patch(nodes, {100, 101, 102, 103}, reach);
   const auto backend = make_exact(mesh, nodes);
   DistanceTable table, again;
-  std::thread other([&] { backend->fill(patch, reach, again); });
-  backend->fill(patch, reach, table);
+  std::thread other([&] { backend->fill(patch, Reach::up_to(reach), again); });
+  backend->fill(patch, Reach::up_to(reach), table);
   other.join();
   CHECK(table.squared == again.squared);
   ExactGeodesics exact(mesh);

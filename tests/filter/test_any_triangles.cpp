@@ -202,7 +202,7 @@ TEST_CASE("on flat faces no path is shorter than the straight line, however thin
     const NodeSurface surface = refine_by_bisection(mesh, options);
     const Patch patch = grow_patch(surface.nodes, {0}, 100);
     DistanceTable table;
-    make_unfold()->fill(patch, 100, table);
+    make_unfold()->fill(patch, Reach::up_to(100), table);
     double below = 0;
     for (Index i = 0; i < table.rows; ++i)
       for (Index j = 0; j < table.columns; ++j) {

@@ -42,7 +42,7 @@ std::vector<double> distances_from_node(const NodeMesh& nodes, Index source,
   const Patch patch =
       grow_patch(nodes, {face}, reach + backend.margin(reach, nodes.longest_edge()));
   DistanceTable table;
-  backend.fill(patch, reach, table);
+  backend.fill(patch, Reach::up_to(reach), table);
   std::vector<double> result(nodes.nodes.size(), std::numeric_limits<double>::infinity());
   for (Index i = 0; i < patch.core_nodes; ++i) {
     if (patch.nodes[i] != source) continue;

@@ -54,8 +54,8 @@ TEST_CASE("with extents tables have all that pairs within the radius need", "[ed
     const Patch small = grow_patch(nodes, core, radius, extents);
     REQUIRE(small.core_nodes == full.core_nodes);
     DistanceTable all, some;
-    backend->fill(full, reach, all);
-    backend->fill(small, radius, some);
+    backend->fill(full, Reach::up_to(reach), all);
+    backend->fill(small, Reach::up_to(radius), some);
     std::vector<Index> in_small(nodes.nodes.size(), kNone);
     for (Index n = 0; n < small.nodes.size(); ++n) in_small[small.nodes[n]] = n;
     for (Index i = 0; i < full.core_nodes; ++i) {

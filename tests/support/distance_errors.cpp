@@ -37,7 +37,7 @@ Patch whole(const NodeMesh& mesh) {
 
 DistanceTable fill(const DistanceBackend& backend, const Patch& patch, double reach) {
   DistanceTable table;
-  backend.fill(patch, reach, table);
+  backend.fill(patch, Reach::up_to(reach), table);
   return table;
 }
 

@@ -20,6 +20,15 @@ std::string_view name_of(DistanceMethod method);
 /// \throw UsageError naming the value
 DistanceMethod distance_method(std::string_view name);
 
+/// How far distances must be right, mesh units. Both may be infinite.
+struct Reach {
+  double radius = 0;  ///< where they count most: the kernel's, or the farthest that is asked for
+  double table = 0;   ///< of the table's entries, >= radius: a kernel looks between nodes
+
+  /// Where all that is wanted is entries up to here.
+  static Reach up_to(double distance) { return {distance, distance}; }
+};
+
 /// One way to compute geodesic distances between nodes. fill() may run in parallel for different
 /// patches; results do not depend on the thread.
 class DistanceBackend {
@@ -31,13 +40,12 @@ class DistanceBackend {
   /// \param longest_edge of the patch
   /// \return mesh units
   virtual double margin(double reach, double longest_edge) const = 0;
-  /// Squared distances from every core node to every patch node. Entries up to `reach` are right,
-  /// entries beyond may be kUnreachable. If the patch has extents, entries up to `reach` and both
-  /// nodes' extents are right.
-  /// \param reach mesh units; may be infinite
+  /// Squared distances from every core node to every patch node. Entries up to `reach.table` are
+  /// right, entries beyond may be kUnreachable. If the patch has extents, entries up to
+  /// `reach.table` and both nodes' extents are right.
   /// \param table overwritten; its memory is used again
   /// \throw NumericError if a linear system cannot be solved
-  virtual void fill(const Patch& patch, double reach, DistanceTable& table) const = 0;
+  virtual void fill(const Patch& patch, const Reach& reach, DistanceTable& table) const = 0;
   /// Whether patches may have extents.
   virtual bool knows_extents() const { return false; }
   /// Nodes of the whole mesh that no distance leads to because this back end cannot place them on a

@@ -131,7 +131,7 @@ class Exact final : public DistanceBackend {
   // The input mesh is asked, not the patch.
   double margin(double, double) const override { return 0; }
 
-  void fill(const Patch& patch, double reach, DistanceTable& table) const override {
+  void fill(const Patch& patch, const Reach& reach, DistanceTable& table) const override {
     table.rows = patch.core_nodes;
     table.columns = Index(patch.nodes.size());
     table.squared.assign(std::size_t(table.rows) * table.columns, kUnreachable);
@@ -140,7 +140,7 @@ class Exact final : public DistanceBackend {
     for (Index i = 0; i < patch.core_nodes; ++i) faces.push_back(nodes_.nodes[patch.nodes[i]].face);
     std::sort(faces.begin(), faces.end());
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    faces = grow_patch(complex_, faces, reach).faces;
+    faces = grow_patch(complex_, faces, reach.table).faces;
     std::sort(faces.begin(), faces.end());
     Submesh surface(mesh_, faces);
     for (Index i = 0; i < table.rows; ++i) {

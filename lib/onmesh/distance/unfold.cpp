@@ -217,7 +217,7 @@ class Unfold final : public DistanceBackend {
   // an edge beyond.
   double margin(double, double longest_edge) const override { return longest_edge; }
 
-  void fill(const Patch& patch, double reach, DistanceTable& table) const override {
+  void fill(const Patch& patch, const Reach& reach, DistanceTable& table) const override {
     table.rows = patch.core_nodes;
     table.columns = Index(patch.nodes.size());
     table.squared.assign(std::size_t(table.rows) * table.columns, kUnreachable);
@@ -232,9 +232,9 @@ class Unfold final : public DistanceBackend {
     }
     const double scale = patch.longest_edge > 0 ? patch.longest_edge : 1;
     if (worst < 8)
-      fill_table<float>(patch, around, reach, scale, 1, table);
+      fill_table<float>(patch, around, reach.table, scale, 1, table);
     else
-      fill_table<double>(patch, around, reach, scale, 2, table);
+      fill_table<double>(patch, around, reach.table, scale, 2, table);
   }
 };
 

@@ -93,7 +93,7 @@ class PatchFilter {
   /// Filter the targets of the core faces.
   void run(const std::vector<Index>& core, PatchCounts& counts) {
     const double start = thread_seconds();
-    double reach = 0;
+    Reach reach;
     const Patch patch = grow(core, reach);
     const double entries = double(patch.core_nodes) * double(patch.nodes.size());
     if (entries > kTableEntries && core.size() > 1) {
@@ -140,11 +140,11 @@ class PatchFilter {
     }
   }
 
-  /// \param reach how far the core's distances must be right
-  Patch grow(const std::vector<Index>& core, double& reach) const {
+  /// \param reach set to how far the core's distances must be right
+  Patch grow(const std::vector<Index>& core, Reach& reach) const {
     const double radius = largest_distance(work_.kernel.radius);
     if (!extents_.empty()) {
-      reach = radius;
+      reach = Reach::up_to(radius);
       return grow_patch(*work_.nodes, core, radius, extents_);
     }
     // A pair within the radius lies in faces whose corners are at most two edges farther apart. How
@@ -156,8 +156,9 @@ class PatchFilter {
     }
     edge = std::min(1.05 * edge, longest_edge_);
     for (;;) {
-      reach = radius + 2 * edge;
-      Patch patch = grow_patch(*work_.nodes, core, reach + work_.backend->margin(reach, edge));
+      reach = {radius, radius + 2 * edge};
+      const double margin = work_.backend->margin(reach.table, edge);
+      Patch patch = grow_patch(*work_.nodes, core, reach.table + margin);
       if (patch.longest_edge <= edge || edge >= longest_edge_) return patch;
       edge = std::min(1.02 * patch.longest_edge, longest_edge_);
     }

@@ -19,7 +19,7 @@ TEST_CASE("most of what is wrong alike along every ray is taken out", "[calibrat
   const NodeMesh nodes = make_node_mesh(mesh);
   Patch patch = whole(nodes);
   const double reach = 12, kernel = reach - 2 * patch.longest_edge;
-  heat::Calibration calibration(patch, reach);
+  heat::Calibration calibration(patch, {kernel, reach});
   REQUIRE(calibration.near_reach() < 0.9 * kernel);
   DistanceTable table = fill(*make_unfold(), patch, calibration.near_reach());
   for (const Index source : {Index(n / 2 * (n + 1) + n / 2), Index(0), Index(n / 2)}) {
@@ -60,7 +60,7 @@ TEST_CASE("what the march did not reach keeps its solution up to a constant", "[
   mesh.positions.emplace_back(3, 3, 0.1);
   const NodeMesh nodes = make_node_mesh(mesh);
   const Patch patch = whole(nodes);
-  heat::Calibration calibration(patch, 8);
+  heat::Calibration calibration(patch, {8 - 2 * patch.longest_edge, 8});
   DistanceTable table = fill(*make_unfold(), patch, calibration.near_reach());
   std::vector<double> phi;
   for (const Vec3& p : mesh.positions) phi.push_back((p - mesh.positions[0]).norm() - 5);
@@ -74,6 +74,16 @@ TEST_CASE("what the march did not reach keeps its solution up to a constant", "[
     ++compared;
   }
   CHECK(compared > 25);
+}
+
+TEST_CASE("the near field is a share of the radius, however far tables reach", "[calibration]") {
+  const TriangleMesh mesh = plane(8, 8, 8, 8);
+  const Patch patch = whole(make_node_mesh(mesh));
+  for (const double beyond : {0.0, 1.0, 5.0, 1e6}) {
+    const heat::Calibration calibration(patch, {6, 6 + beyond});
+    CHECK(calibration.near_reach() == heat::kNearShare * 6);
+  }
+  CHECK(heat::Calibration(patch, {1, 9}).near_reach() == 2 * patch.longest_edge);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ OnSphere make_on_sphere() {
   const auto backend = make_unfold();
   const double edge = on.surface.nodes.longest_edge(), reach = 0.3 + 2 * edge;
   on.patch = grow_patch(on.surface.nodes, groups[0], reach + backend->margin(reach, edge));
-  backend->fill(on.patch, reach, on.table);
+  backend->fill(on.patch, Reach::up_to(reach), on.table);
   return on;
 }
 

@@ -18,12 +18,12 @@ class Cloud final : public DistanceBackend {
   double margin(double, double longest_edge) const override {
     return heat::margin(longest_edge) + longest_edge;
   }
-  void fill(const Patch& patch, double reach, DistanceTable& table) const override {
+  void fill(const Patch& patch, const Reach& reach, DistanceTable& table) const override {
     const Complex complex = make_complex(heat::surface_of(patch), geometry_);
     heat::fill(complex.triangles, complex.cover, complex.weights, reach, table);
     if (patch.bridge_faces > 0)
-      heat::cross_bridges(complex.triangles, heat::with_bridges(complex.triangles, patch), reach,
-                          table);
+      heat::cross_bridges(complex.triangles, heat::with_bridges(complex.triangles, patch),
+                          reach.table, table);
   }
   Index skipped_nodes() const override { return geometry_.skipped; }
 

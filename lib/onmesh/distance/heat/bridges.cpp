@@ -44,8 +44,8 @@ void cross_bridges(const Patch& surface, const Patch& bridged, double reach, Dis
   constexpr float kShorter = 1 - 1e-4F;
   const auto march = make_unfold();
   DistanceTable without, with;
-  march->fill(surface, reach, without);
-  march->fill(bridged, reach, with);
+  march->fill(surface, Reach::up_to(reach), without);
+  march->fill(bridged, Reach::up_to(reach), with);
   for (std::size_t i = 0; i < table.squared.size(); ++i)
     if (with.squared[i] < kShorter * without.squared[i]) table.squared[i] = with.squared[i];
 }

@@ -13,11 +13,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Calibration::Calibration(const Patch& near, double reach)
+Calibration::Calibration(const Patch& near, const Reach& reach)
     : nodes_(Index(near.nodes.size())),
-      share_(kNearShare * std::max(0.0, reach - 2 * near.longest_edge)),
-      near_reach_(std::min(reach, std::max(2 * near.longest_edge, share_))),
-      limit_(reach + near.longest_edge / 2),
+      share_(kNearShare * reach.radius),
+      near_reach_(std::min(reach.table, std::max(2 * near.longest_edge, share_))),
+      limit_(reach.table + near.longest_edge / 2),
       offsets_(near.nodes.size() + 1, 0),
       distance_(near.nodes.size(), kInfinity),
       correction_(near.nodes.size(), 0) {

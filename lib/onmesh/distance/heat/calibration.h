@@ -3,14 +3,14 @@
 
 #include <vector>
 
+#include "onmesh/distance/backend.h"
 #include "onmesh/patches/patch.h"
 
 namespace onmesh::heat {
 
-/// How far the near field goes at least, as a share of the kernel's radius, which is two edges less
-/// than the reach of the tables (filter/patch_loop.cpp): about what two rings of nodes cover where
-/// the spacing is sigma. A fixed share, so that finer nodes leave no more of the kernel to heat,
-/// and err less.
+/// How far the near field goes at least, as a share of the radius: about what two rings of nodes
+/// cover where the spacing is sigma. A fixed share, so that finer nodes leave no more of the kernel
+/// to heat, and err less.
 inline constexpr double kNearShare = 0.88;
 
 /// The heat method's solution is a distance up to a constant, and to an error that depends on the
@@ -27,8 +27,7 @@ inline constexpr double kNearShare = 0.88;
 class Calibration {
  public:
   /// \param near the complex of the march
-  /// \param reach mesh units
-  Calibration(const Patch& near, double reach);
+  Calibration(const Patch& near, const Reach& reach);
 
   /// How far the near field must be marched, in mesh units.
   double near_reach() const { return near_reach_; }

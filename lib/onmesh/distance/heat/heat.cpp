@@ -162,11 +162,11 @@ class Heat final : public DistanceBackend {
  public:
   std::string_view name() const override { return "heat"; }
   double margin(double, double longest_edge) const override { return heat::margin(longest_edge); }
-  void fill(const Patch& patch, double reach, DistanceTable& table) const override {
+  void fill(const Patch& patch, const Reach& reach, DistanceTable& table) const override {
     if (patch.bridge_faces == 0) return heat::fill(patch, patch, {}, reach, table);
     const Patch surface = surface_of(patch);
     heat::fill(surface, surface, {}, reach, table);
-    cross_bridges(surface, patch, reach, table);
+    cross_bridges(surface, patch, reach.table, table);
   }
 };
 
@@ -174,12 +174,12 @@ class Heat final : public DistanceBackend {
 
 double margin(double longest_edge) { return 2 * longest_edge; }
 
-void fill(const Patch& near, const Patch& flow, const std::vector<float>& weights, double reach,
-          DistanceTable& table) {
+void fill(const Patch& near, const Patch& flow, const std::vector<float>& weights,
+          const Reach& reach, DistanceTable& table) {
   Calibration calibration(near, reach);
-  make_unfold()->fill(near, calibration.near_reach(), table);
+  make_unfold()->fill(near, Reach::up_to(calibration.near_reach()), table);
   if (!(near.longest_edge > 0)) return;
-  const LinearSystems systems = make_linear_systems(flow, weights, reach);
+  const LinearSystems systems = make_linear_systems(flow, weights, reach.table);
   Solver solver(systems);
   std::vector<double> phi(near.nodes.size());
   for (Index first = 0; first < near.core_nodes; first += Index(kLanes)) {
