@@ -45,7 +45,7 @@ Command compare_command() {
 namespace {
 
 Image read_other(const std::string& path, const std::string& first, const Image& like) {
-  Image image = read_image(path);
+  Image image = read_texture(path);
   const auto size = [](const Image& i) {
     return std::to_string(i.width) + " x " + std::to_string(i.height) + " with " +
            count_text(std::uint64_t(i.channels), "channel", "channels");
@@ -159,7 +159,7 @@ int run_compare(const Arguments& arguments) {
   arguments.require_with({"wrap", "seams", "material"}, "mesh");
   wrap_of(arguments);
 
-  const Image a = read_image(path_a);
+  const Image a = read_texture(path_a);
   const Image b = read_other(path_b, path_a, a);
   check_interrupted();
   Comparison result;

@@ -167,9 +167,11 @@ FilterInputs read_inputs(const Arguments& arguments, Stopwatch& watch) {
   inputs.mesh = read_mesh(inputs.mesh_path, &inputs.warnings);
   inputs.stages.push_back(stage("read mesh", watch));
   check_interrupted();
-  inputs.choice = choose_texture(inputs.mesh, arguments.optional_text("texture"),
-                                 arguments.optional_text("material"));
-  inputs.texture = read_image(inputs.choice.path);
+  inputs.choice = explained_by(inputs.warnings, [&] {
+    return choose_texture(inputs.mesh, arguments.optional_text("texture"),
+                          arguments.optional_text("material"));
+  });
+  inputs.texture = read_texture(inputs.choice.path);
   inputs.stages.push_back(stage("read texture", watch));
   check_interrupted();
   return inputs;

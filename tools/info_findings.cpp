@@ -6,6 +6,7 @@
 
 #include "format.h"
 #include "interruption.h"
+#include "messages.h"
 #include "onmesh/image/image_io.h"
 
 namespace onmesh::tools {
@@ -79,7 +80,7 @@ std::vector<TextureFacts> examine_textures(const InputMesh& input, const Argumen
     check_interrupted();
     textures.push_back(facts_on(name, [&](TextureFacts& facts) {
       Atlas atlas;
-      atlas.image = read_image(name);
+      atlas.image = read_texture(name);
       atlas.width = atlas.image.width;
       atlas.height = atlas.image.height;
       atlas.map = {wrap_of(arguments), faces_with_texture(input.cleaned, name)};

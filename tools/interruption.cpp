@@ -19,6 +19,7 @@ constexpr std::chrono::milliseconds kPatience(800);
 
 // Signals reach nothing but globals. Trivial ones, as the thread may outlive main().
 std::atomic<int> received_signal = 0;
+std::atomic<int> message_file = STDERR_FILENO;
 std::mutex name_mutex;
 char program_name[64] = "onmesh";
 
@@ -34,7 +35,7 @@ bool is_ignored(int signal) {
   remove_temporaries();
   {
     const std::lock_guard lock(name_mutex);
-    std::fprintf(stderr, "%s: %s\n", program_name, signal_word(signal));
+    ::dprintf(message_file, "%s: %s\n", program_name, signal_word(signal));
   }
   ::_exit(128 + signal);
 }
@@ -77,6 +78,8 @@ void set_program_name(const std::string& name) {
   const std::lock_guard lock(name_mutex);
   std::snprintf(program_name, sizeof program_name, "%s", name.c_str());
 }
+
+void say_signals_to(int file) { message_file = file; }
 
 void check_interrupted() {
   if (const int signal = received_signal; signal != 0) throw Interrupted{signal};

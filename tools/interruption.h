@@ -19,6 +19,8 @@ struct Interrupted {
 void install_signal_handling();
 /// What the thread's message begins with.
 void set_program_name(const std::string& name);
+/// Where the thread's message goes: a file descriptor.
+void say_signals_to(int file);
 /// \throw Interrupted once a signal came, so that destructors remove temporary files
 void check_interrupted();
 /// "interrupted", "terminated", ...

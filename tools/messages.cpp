@@ -1,19 +1,30 @@
 #include "messages.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
+#include <mutex>
 
 #include "interruption.h"
+#include "onmesh/image/image_io.h"
 
 namespace onmesh::tools {
 namespace {
 
 // Warnings have to wipe a bar that another place shows.
 std::atomic<bool> bar_is_shown{false};
+
+// The process has one stderr.
+struct Silence {
+  std::mutex mutex;
+  int users = 0;
+  int before = -1;  // where stderr went; -1 = it still goes there
+};
+Silence silence;
 
 void wipe_bar() {
   if (bar_is_shown.exchange(false)) std::fputs("\r\033[K", stderr);
@@ -53,6 +64,35 @@ struct ProgressBar::State {
     bar_is_shown = true;
   }
 };
+
+QuietLibraries::QuietLibraries() {
+  const std::lock_guard lock(silence.mutex);
+  if (silence.users++ > 0) return;
+  std::fflush(stderr);
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere < 0) return;
+  silence.before = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  if (silence.before >= 0) {
+    say_signals_to(silence.before);
+    ::dup2(nowhere, STDERR_FILENO);
+  }
+  ::close(nowhere);
+}
+
+QuietLibraries::~QuietLibraries() {
+  const std::lock_guard lock(silence.mutex);
+  if (--silence.users > 0 || silence.before < 0) return;
+  std::fflush(stderr);
+  ::dup2(silence.before, STDERR_FILENO);
+  say_signals_to(STDERR_FILENO);
+  ::close(silence.before);
+  silence.before = -1;
+}
+
+Image read_texture(const std::filesystem::path& path) {
+  const QuietLibraries quiet;
+  return read_image(path);
+}
 
 ProgressBar::ProgressBar(bool quiet) : state_(std::make_unique<State>()) {
   state_->visible = !quiet && ::isatty(STDERR_FILENO) == 1;

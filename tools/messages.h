@@ -1,17 +1,32 @@
 // What is said on stderr while a command runs: warnings and progress.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "onmesh/base/progress.h"
+#include "onmesh/image/image.h"
 
 namespace onmesh::tools {
 
 /// "onmesh: warning: ..." on stderr, line breaks replaced.
 void warn(const std::string& message);
 void warn(const std::vector<std::string>& messages);
+
+/// While it lives what libraries print to stderr goes nowhere: some do so beside the errors that
+/// they return. Our own messages, too; none is due then, but that of a signal.
+class QuietLibraries {
+ public:
+  QuietLibraries();
+  ~QuietLibraries();
+  QuietLibraries(const QuietLibraries&) = delete;
+  QuietLibraries& operator=(const QuietLibraries&) = delete;
+};
+
+/// read_image() in silence.
+Image read_texture(const std::filesystem::path& path);
 
 /// A progress bar on stderr while it lives: only on a terminal, at most ten times a second, wiped
 /// at the end. Its callback also checks for interruption, quiet or not.

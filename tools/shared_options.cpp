@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "command.h"
+#include "messages.h"
 #include "texture_choice.h"
 
 namespace onmesh::tools {
@@ -73,7 +74,7 @@ Atlas read_atlas(const Arguments& arguments, const TriangleMesh& mesh, const std
   }
   atlas.texture = choice.path.string();
   atlas.map.faces = std::move(choice.faces);
-  atlas.image = read_image(atlas.texture);
+  atlas.image = read_texture(atlas.texture);
   atlas.width = atlas.image.width;
   atlas.height = atlas.image.height;
   return atlas;

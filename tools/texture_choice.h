@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "onmesh/base/error.h"
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh::tools {
@@ -22,5 +23,18 @@ struct TextureChoice {
 /// \throw UsageError that says what to give: -t or --material with the names there are
 TextureChoice choose_texture(const TriangleMesh& mesh, const std::optional<std::string>& texture,
                              const std::optional<std::string>& material);
+
+/// Calls work(), which chooses a texture; if there is none to choose, the error says what was odd
+/// about the mesh: a material file may be missing.
+template <class Work>
+auto explained_by(const std::vector<std::string>& warnings, const Work& work) {
+  try {
+    return work();
+  } catch (const UsageError& error) {
+    std::string message = error.what();
+    for (const std::string& warning : warnings) message += "; " + warning;
+    throw UsageError(message);
+  }
+}
 
 }  // namespace onmesh::tools

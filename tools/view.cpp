@@ -123,7 +123,7 @@ class MaterialTextures {
   // A model is worth seeing even if one of its textures got lost: that part stays grey.
   static std::unique_ptr<Image> read(const std::string& path) {
     try {
-      return std::make_unique<Image>(read_image(path));
+      return std::make_unique<Image>(read_texture(path));
     } catch (const FileError& error) {
       warn(error.what());
     } catch (const InputError& error) {
@@ -140,7 +140,7 @@ std::vector<Image> flat_pictures(const Arguments& arguments, const RenderOptions
   paths.insert(paths.begin(), arguments.text("texture"));
   std::vector<Image> pictures;
   for (const std::string& path : paths) {
-    pictures.push_back(view_texture(read_image(path), options.width, options.supersampling));
+    pictures.push_back(view_texture(read_texture(path), options.width, options.supersampling));
     check_interrupted();
   }
   return pictures;
@@ -160,7 +160,7 @@ Image first_picture(const TriangleMesh& mesh, const std::vector<double>& scalar,
     return render(mesh, colour, options);
   }
   if (arguments.has("texture")) {
-    const Image texture = read_image(arguments.text("texture"));
+    const Image texture = read_texture(arguments.text("texture"));
     colour.texture = &texture;
     return render(mesh, colour, options);
   }
@@ -189,7 +189,7 @@ std::vector<Image> model_pictures(const std::string& path, const Arguments& argu
   std::vector<Image> pictures{first_picture(mesh, scalar, arguments, options)};
   for (const std::string& after : arguments.texts("after")) {
     check_interrupted();
-    const Image texture = read_image(after);
+    const Image texture = read_texture(after);
     RenderColour colour;
     colour.texture = &texture;
     pictures.push_back(render(mesh, colour, options));

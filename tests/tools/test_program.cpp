@@ -139,3 +139,26 @@ TEST_CASE("wrong input exits with 3 and names the file", "[tools]") {
   check_refused(space, "filter good.obj -t text.png -o o.png", 3, "text.png: ");
   check_refused(space, "filter bare.obj -t good.png -o o.png", 3, "bare.obj: ");
 }
+
+TEST_CASE("libraries print nothing beside our own error", "[tools]") {
+  const Workspace space;
+  space.must("make-mesh plane -o m.obj -t m.png --size 64");
+  // A PNG whose chunks are whole, but whose pixels are not: libpng says so on stderr itself.
+  const std::string whole = content_of(space / "m.png");
+  const std::size_t at = whole.find("IDAT");
+  REQUIRE(at != std::string::npos);
+  std::string damaged = whole;
+  for (std::size_t i = at + 40; i < at + 80; ++i) damaged[i] = 'x';
+  space.file("bad.png", damaged);
+  check_refused(space, "filter m.obj -t bad.png -o o.png", 3, "bad.png");
+  check_refused(space, "view m.obj -t bad.png -o o.png", 3, "bad.png");
+}
+
+TEST_CASE("a missing material file is named in the error that follows from it", "[tools]") {
+  const Workspace space;
+  space.file("m.obj",
+             "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\n"
+             "f 1/1 2/2 3/3\n");
+  check_refused(space, "filter m.obj -o o.png", 2, "none.mtl");
+  check_refused(space, "filter m.obj -o o.png", 2, "give one with -t");
+}
