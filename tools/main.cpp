@@ -1,4 +1,5 @@
 // The onmesh program: picks the subcommand and turns errors into messages and exit codes.
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <new>
@@ -9,6 +10,7 @@
 #include "interruption.h"
 #include "onmesh/base/error.h"
 #include "onmesh/base/process_memory.h"
+#include "onmesh/base/simd_level.h"
 #include "onmesh/version.h"
 #include "subcommands.h"
 
@@ -42,6 +44,8 @@ void print_help(std::ostream& out) {
   out << "\n"
          "  onmesh COMMAND --help   what a command takes, with examples\n"
          "  onmesh --version        the program's version\n\n"
+         "The environment variable ONMESH_SIMD names the best instruction set to use, such as "
+         "AVX2.\n\n"
          "Exit codes: 0 done, 1 a check that was asked for failed, 2 wrong usage, 3 wrong input,\n"
          "4 a file cannot be read or written, 128 + N ended by signal N (130 interrupted, 143 "
          "terminated).\n";
@@ -104,6 +108,7 @@ int main(int argc, char** argv) {
   int code = 0;
   install_signal_handling();
   try {
+    if (const char* const level = std::getenv("ONMESH_SIMD")) onmesh::limit_simd(level);
     code = run({argv + std::min(argc, 1), argv + argc}, name);
     std::cout.flush();
     if (!std::cout) throw onmesh::FileError("standard output: cannot write");

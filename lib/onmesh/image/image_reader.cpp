@@ -68,6 +68,10 @@ void check_readable(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     throw FileError(path.string() + ": cannot read the image: it is a folder");
+  // Opening a pipe would wait for whoever writes to it.
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
+    throw FileError(path.string() + ": cannot read the image: it is not a regular file");
+  }
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file && path.string().find("<UDIM>") != std::string::npos) {
