@@ -203,6 +203,29 @@ TEST_CASE("spikes and strips have no more nodes than are of use", "[refine]") {
   }
 }
 
+TEST_CASE("strips and spikes whose faces carry nothing take few nodes", "[refine]") {
+  // A spike from a needed square, and a strip far thinner than the spacing.
+  TriangleMesh spike = bare_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1e9, 0, 0}},
+                                 {{0, 1, 2}, {0, 2, 3}, {1, 4, 2}});
+  RefineOptions options;
+  options.spacing = 0.1;
+  options.reach = 1;
+  options.needed = {true, true, false};
+  CleanReport cleaning;
+  RefineReport report;
+  refine(clean(spike, &cleaning), cleaning, options, &report);
+  CHECK(report.nodes < 5000);
+
+  const TriangleMesh strip = make_plane(8, 8, 1e9, 1);
+  options.spacing = 4000;
+  options.needed.clear();
+  options.least_useful.assign(strip.faces.size(), 2e6);
+  options.max_delaunay_nodes = 50000;
+  const NodeSurface surface = refine(clean(strip, &cleaning), cleaning, options, &report);
+  CHECK(report.nodes < 50000);
+  CHECK(area_of(surface.nodes) == Approx(1e9).epsilon(1e-6));
+}
+
 TEST_CASE("only meshes whose faces must stay flat are bisected", "[refine]") {
   RefineOptions options;
   options.spacing = 0.3;

@@ -55,6 +55,10 @@ RefineOptions refinement_for(const PreparedMesh& prepared, const WorkingPlan& pl
   for (Index f = 0; f < prepared.mesh.faces.size(); ++f) {
     options.least_useful.push_back(longest_texel_side(prepared, f) / kNodesPerTexel);
   }
+  // Many times the estimate, which leaves out what bends ask for.
+  constexpr double kTooMany = 16;
+  options.max_delaunay_nodes =
+      Index(std::min(1e8, 20000 + kTooMany * estimate_nodes(prepared.mesh, options)));
   // Patches reach three edges beyond the radius, from node faces that reach an edge beyond the
   // texels; some more keep the faces there as small as they are where the spacing is not yet
   // larger.

@@ -90,12 +90,31 @@ void require_claims(const TriangleMesh& mesh, const TexelMap& map, const std::ve
                             : "no face of the mesh carries the texture");
 }
 
+/// A power of two that brings a mesh to a size whose squares hold in double precision; 1 for all
+/// that have one.
+double scale_into_range(const TriangleMesh& mesh) {
+  if (mesh.positions.empty()) return 1;
+  Vec3 low = mesh.positions[0], high = low;
+  for (const Vec3& p : mesh.positions) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const double size = (high / 2 - low / 2).maxCoeff();
+  const bool holds = !(size > 0) || (size > 0x1p-300 && size < 0x1p300);
+  return holds ? 1 : std::ldexp(1.0, -std::ilogb(size));
+}
+
 }  // namespace
 
 PreparedMesh prepare_mesh(const TriangleMesh& mesh, const Image& texture,
                           const FilterOptions& options) {
   PreparedMesh out;
-  out.mesh = clean(weld(mesh), &out.cleaning);
+  out.mesh = weld(mesh);
+  const double scale = scale_into_range(out.mesh);
+  if (scale != 1) {
+    for (Vec3& p : out.mesh.positions) p *= scale;
+  }
+  out.mesh = clean(out.mesh, &out.cleaning);
   warn_of_cleaning(mesh, out.cleaning, out.warnings);
   if (options.distance == DistanceMethod::exact && !out.cleaning.manifold()) {
     throw InputError("distance=exact: the mesh is not manifold (" + out.cleaning.defects() +
@@ -104,6 +123,7 @@ PreparedMesh prepare_mesh(const TriangleMesh& mesh, const Image& texture,
 
   out.unit = std::exp2(std::ceil(std::log2(std::max(out.mesh.diagonal(), 1e-300))));
   for (Vec3& p : out.mesh.positions) p /= out.unit;
+  out.unit /= scale;
 
   const std::vector<bool> faces = faces_left(options.faces, out.cleaning);
   out.map = with_face_numbers(out.cleaning.kept, [&] {

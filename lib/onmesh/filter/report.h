@@ -43,7 +43,7 @@ struct FilterReport {
   std::string backend;          ///< where distances came from: "unfold", "heat", ...
   std::string backend_reason;   ///< why this one
   std::string instruction_set;  ///< of the kernel: "AVX2", ...
-  std::string refinement;       ///< "intrinsic", or "bisection" where parts are bridged
+  std::string refinement;       ///< "intrinsic", or "bisection" with bridges or very thin faces
 
   double sigma_spatial = 0;           ///< mesh units, as in FilterPlan
   double radius = 0;                  ///< the same

@@ -57,8 +57,8 @@ class Refiner {
       if (class_of(face) != face_class) continue;  // has changed since
       if (face_class == BadFaces::kThin && !may_insert_for_shape()) continue;
       if (t_.node_count() >= options_.max_nodes) {
-        throw InputError("the node spacing would need more than " +
-                         std::to_string(options_.max_nodes) + " nodes");
+        throw TooManyNodes("the node spacing would need more than " +
+                           std::to_string(options_.max_nodes) + " nodes");
       }
       flips_ = 0;
       improve(face);
@@ -104,8 +104,14 @@ class Refiner {
     return kCircumradiusPerSpacing / 3 *
            (wanted_[e.tail[3 * f]] + wanted_[e.tail[3 * f + 1]] + wanted_[e.tail[3 * f + 2]]);
   }
+  // Flat triangles have large circumcircles, however short they are: those are thin, not large.
+  bool is_large(Index f, double radius, double largest) const {
+    const HalfEdges& e = t_.edges();
+    const double longest = std::max({e.length[3 * f], e.length[3 * f + 1], e.length[3 * f + 2]});
+    return radius > (1 + kSame) * largest && longest > largest;
+  }
   bool too_large(Index f) const {
-    return t_.edges().circumradius(f) > (1 + kSame) * largest_radius(f);
+    return is_large(f, t_.edges().circumradius(f), largest_radius(f));
   }
 
   static bool at_front(double shortest_edge, double largest_radius) {
@@ -118,7 +124,7 @@ class Refiner {
   int class_of(Index f) const {
     const double radius = t_.edges().circumradius(f), largest = largest_radius(f);
     const double shortest = t_.edges().shortest_edge(f);
-    if (radius > (1 + kSame) * largest) {
+    if (is_large(f, radius, largest)) {
       return at_front(shortest, largest) ? BadFaces::kFront : BadFaces::large(radius / largest);
     }
     if (radius * kCircumradiusPerSpacing < kFinestCircumradius * largest) return BadFaces::kNotBad;

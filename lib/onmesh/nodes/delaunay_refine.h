@@ -3,12 +3,18 @@
 
 #include <vector>
 
+#include "onmesh/base/error.h"
 #include "onmesh/nodes/cut_edges.h"
 #include "onmesh/nodes/intrinsic_triangulation.h"
 #include "onmesh/nodes/refine.h"
 #include "onmesh/nodes/sizing_field.h"
 
 namespace onmesh {
+
+/// Refinement would exceed options.max_nodes.
+struct TooManyNodes : InputError {
+  using InputError::InputError;
+};
 
 /// Chew's second algorithm (Chew, Guaranteed-quality mesh generation for curved surfaces, 1993) on
 /// an intrinsic triangulation (Sharp, Soliman & Crane 2019, section 4.2): flip to Delaunay, then
@@ -21,7 +27,7 @@ namespace onmesh {
 /// \param remoteness what is added to it from place to place
 /// \param cuts split along with their sides; copies of a vertex must have the same spacing
 /// \param report gets flips, insertions and the smallest angle
-/// \throw InputError if options.max_nodes would be exceeded
+/// \throw TooManyNodes
 void refine_delaunay(IntrinsicTriangulation& triangulation, std::vector<double> vertex_spacing,
                      const Remoteness& remoteness, const RefineOptions& options, CutEdges& cuts,
                      RefineReport& report);

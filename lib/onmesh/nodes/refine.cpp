@@ -1,5 +1,7 @@
 #include "onmesh/nodes/refine.h"
 
+#include <algorithm>
+
 #include "onmesh/nodes/bisection.h"
 #include "onmesh/nodes/delaunay_refine.h"
 #include "onmesh/nodes/half_edge_mesh.h"
@@ -8,6 +10,19 @@
 #include "onmesh/nodes/sizing_field.h"
 
 namespace onmesh {
+namespace {
+
+/// Whether every face with area has its place among the node faces.
+bool is_laid_out(const TriangleMesh& mesh, const Overlay& overlay) {
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    if (overlay.face_offsets[f] == overlay.face_offsets[f + 1] && !mesh.is_degenerate(f)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
 
 NodeSurface refine_manifold(const TriangleMesh& mesh, const RefineOptions& options,
                             RefineReport* report) {
@@ -28,8 +43,18 @@ NodeSurface refine_manifold(const TriangleMesh& mesh, const RefineOptions& optio
 NodeSurface refine(const TriangleMesh& mesh, const CleanReport& cleaning,
                    const RefineOptions& options, RefineReport* report) {
   if (options.flat_faces) return refine_by_bisection(mesh, options, report);
-  if (!cleaning.manifold()) return refine_in_pieces(mesh, options, report);
-  return refine_manifold(mesh, options, report);
+  RefineOptions limited = options;
+  if (options.max_delaunay_nodes > 0) {
+    limited.max_nodes = std::min(options.max_nodes, options.max_delaunay_nodes);
+  }
+  try {
+    NodeSurface surface = cleaning.manifold() ? refine_manifold(mesh, limited, report)
+                                              : refine_in_pieces(mesh, limited, report);
+    if (is_laid_out(mesh, surface.overlay)) return surface;
+  } catch (const TooManyNodes&) {
+    if (limited.max_nodes == options.max_nodes) throw;
+  }
+  return refine_by_bisection(mesh, options, report);
 }
 
 }  // namespace onmesh

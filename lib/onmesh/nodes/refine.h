@@ -43,6 +43,9 @@ struct RefineOptions {
   /// the spacing grows up to this, if it is larger than `spacing`; so stretched faces have no more
   /// nodes than what they carry can tell apart. Empty = 0 everywhere.
   std::vector<double> least_useful;
+  /// Where Delaunay refinement makes more, bisection is tried instead; 0 = as many as max_nodes.
+  /// Strips and needles can make it go on and on.
+  Index max_delaunay_nodes = 0;
   /// Stop with an InputError beyond so many.
   Index max_nodes = 200'000'000;
 };
@@ -55,7 +58,7 @@ struct RefineReport {
   Index flips = 0;                    ///< of edges
   Index insertions = 0;               ///< of nodes
   double smallest_angle_degrees = 0;  ///< intrinsic: over faces without a vertex that forces it
-  bool bisected = false;              ///< with options.flat_faces
+  bool bisected = false;              ///< by bisection: asked for, or because Delaunay failed
 };
 
 /// Intrinsic Delaunay refinement of a manifold mesh (Sharp, Soliman & Crane, Navigating Intrinsic
@@ -69,8 +72,10 @@ NodeSurface refine_manifold(const TriangleMesh& mesh, const RefineOptions& optio
                             RefineReport* report = nullptr);
 
 /// The refinement for any mesh as clean() leaves it: that of refine_manifold(), piece by piece if
-/// the mesh is not manifold; with options.flat_faces longest-edge bisection inside the input's
-/// faces. Input vertices stay nodes, with the same indices.
+/// the mesh is not manifold. Longest-edge bisection inside the input's faces with
+/// options.flat_faces, and where Delaunay refinement fails on faces so thin that it needs too many
+/// nodes, or that rounding leaves no place for them between the nodes. Input vertices stay nodes,
+/// with the same indices.
 /// \param cleaning what clean() reported of this mesh
 /// \throw UsageError if the spacing is not positive and finite
 /// \throw InputError if more than options.max_nodes would be needed

@@ -238,12 +238,11 @@ Remoteness::Remoteness(const TriangleMesh& mesh, const RefineOptions& options)
   }
   if (std::find(needed.begin(), needed.end(), false) == needed.end()) return;
   needed_.positions = mesh.positions;
-  const double least_area = 1e-12 * mesh.diagonal() * mesh.diagonal();
   bool has_area = false;
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     if (!needed[f]) continue;
     needed_.faces.push_back(mesh.faces[f]);
-    has_area = has_area || mesh.face_area(f) > least_area;
+    has_area = has_area || !mesh.is_degenerate(f);
   }
   if (has_area) nearest_.emplace(needed_);
 }
