@@ -12,8 +12,9 @@ namespace {
 /// and radius 20 texels distances are off by less than a hundredth of a texel.
 constexpr double kFlatness = 0.0072;
 
-/// Along the longer side of a texel, so many nodes are of use.
-constexpr double kNodesPerTexel = 4;
+/// Along the longer side of a texel, so many nodes are of use, if it is so many times longer than
+/// texels are as a rule.
+constexpr double kNodesPerTexel = 4, kStretch = 4;
 
 /// The longest side of a face's texels on the surface, working units; 0 where it has none.
 double longest_texel_side(const PreparedMesh& prepared, Index face) {
@@ -53,7 +54,9 @@ RefineOptions refinement_for(const PreparedMesh& prepared, const WorkingPlan& pl
   options.needed.reserve(prepared.mesh.faces.size());
   for (const double area : prepared.map.texel_area) options.needed.push_back(area > 0);
   for (Index f = 0; f < prepared.mesh.faces.size(); ++f) {
-    options.least_useful.push_back(longest_texel_side(prepared, f) / kNodesPerTexel);
+    const double side = longest_texel_side(prepared, f);
+    const bool is_stretched = side > kStretch * plan.texel_size;
+    options.least_useful.push_back(is_stretched ? side / kNodesPerTexel : 0);
   }
   // Many times the estimate, which leaves out what bends ask for.
   constexpr double kTooMany = 16;

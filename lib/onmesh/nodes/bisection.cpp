@@ -47,11 +47,11 @@ class Bisection {
     }
   }
 
-  void run() {
+  void run(Index enough) {
     // Faces that splitting appends come later in the same pass; those that keep their number are
     // looked at until they are small enough.
     for (Index f = 0; f < faces_.size(); ++f) {
-      while (too_large(f)) split(longest_edge_on_path(f));
+      while (too_large(f) && nodes_.size() < enough) split(longest_edge_on_path(f));
     }
   }
 
@@ -240,10 +240,10 @@ class Bisection {
 }  // namespace
 
 NodeSurface refine_by_bisection(const TriangleMesh& mesh, const RefineOptions& options,
-                                RefineReport* report) {
+                                RefineReport* report, Index enough) {
   check_spacing(options);
   Bisection bisection(mesh, options);
-  bisection.run();
+  bisection.run(enough);
   NodeSurface surface = bisection.surface();
   if (report != nullptr) {
     *report = {};

@@ -54,7 +54,8 @@ NodeSurface refine(const TriangleMesh& mesh, const CleanReport& cleaning,
   } catch (const TooManyNodes&) {
     if (limited.max_nodes == options.max_nodes) throw;
   }
-  return refine_by_bisection(mesh, options, report);
+  const Index enough = options.max_delaunay_nodes > 0 ? options.max_delaunay_nodes : kNone;
+  return refine_by_bisection(mesh, options, report, enough);
 }
 
 }  // namespace onmesh

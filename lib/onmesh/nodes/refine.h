@@ -43,8 +43,8 @@ struct RefineOptions {
   /// the spacing grows up to this, if it is larger than `spacing`; so stretched faces have no more
   /// nodes than what they carry can tell apart. Empty = 0 everywhere.
   std::vector<double> least_useful;
-  /// Where Delaunay refinement makes more, bisection is tried instead; 0 = as many as max_nodes.
-  /// Strips and needles can make it go on and on.
+  /// Where Delaunay refinement makes more, bisection is tried instead, which ends there; 0 = as
+  /// many as max_nodes. Strips and needles can make it go on and on.
   Index max_delaunay_nodes = 0;
   /// Stop with an InputError beyond so many.
   Index max_nodes = 200'000'000;
