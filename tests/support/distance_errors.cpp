@@ -35,10 +35,14 @@ Patch whole(const NodeMesh& mesh) {
   return patch;
 }
 
-DistanceTable fill(const DistanceBackend& backend, const Patch& patch, double reach) {
+DistanceTable fill(const DistanceBackend& backend, const Patch& patch, const Reach& reach) {
   DistanceTable table;
-  backend.fill(patch, Reach::up_to(reach), table);
+  backend.fill(patch, reach, table);
   return table;
+}
+
+DistanceTable fill(const DistanceBackend& backend, const Patch& patch, double reach) {
+  return fill(backend, patch, Reach::up_to(reach));
 }
 
 Errors summarise(std::vector<double> errors) {

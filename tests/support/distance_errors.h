@@ -17,6 +17,8 @@ double mean_edge(const NodeMesh& mesh);
 /// The whole mesh as one patch, nodes with their own numbers.
 Patch whole(const NodeMesh& mesh);
 
+DistanceTable fill(const DistanceBackend& backend, const Patch& patch, const Reach& reach);
+/// With the radius as far as the reach.
 DistanceTable fill(const DistanceBackend& backend, const Patch& patch, double reach);
 
 struct Errors {

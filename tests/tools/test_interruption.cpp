@@ -23,17 +23,22 @@ void wait_for(int milliseconds) {
   std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
 }
 
-/// Whether the process runs the program already, and a thread of its own waits for SIGTERM.
+/// Whether the process runs the program already, and a thread of its own waits for SIGTERM. That it
+/// is blocked does not tell: libraries block all signals for moments while they are loaded.
 bool waits_for_signals(pid_t process) {
   const std::string folder = "/proc/" + std::to_string(process);
   std::error_code error;
   if (!std::filesystem::equivalent(folder + "/exe", program(), error)) return false;
   std::ifstream status(folder + "/status");
+  const auto holds = [](const std::string& line, int signal) {
+    return (std::stoull(line.substr(line.find(':') + 1), nullptr, 16) >> (signal - 1) & 1) != 0;
+  };
+  bool blocks = false, ignores = false;
   for (std::string line; std::getline(status, line);) {
-    if (line.rfind("SigBlk:", 0) != 0) continue;
-    return (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1) & 1) != 0;
+    if (line.rfind("SigBlk:", 0) == 0) blocks = holds(line, SIGTERM);
+    if (line.rfind("SigIgn:", 0) == 0) ignores = holds(line, SIGPIPE) && holds(line, SIGXFSZ);
   }
-  return false;
+  return blocks && ignores;
 }
 
 /// Starts the program, sends a signal some time after it waits for one, and returns the exit code;

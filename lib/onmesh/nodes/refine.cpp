@@ -42,7 +42,8 @@ NodeSurface refine_manifold(const TriangleMesh& mesh, const RefineOptions& optio
 
 NodeSurface refine(const TriangleMesh& mesh, const CleanReport& cleaning,
                    const RefineOptions& options, RefineReport* report) {
-  if (options.flat_faces) return refine_by_bisection(mesh, options, report);
+  const Index enough = options.max_delaunay_nodes > 0 ? options.max_delaunay_nodes : kNone;
+  if (options.flat_faces) return refine_by_bisection(mesh, options, report, enough);
   RefineOptions limited = options;
   if (options.max_delaunay_nodes > 0) {
     limited.max_nodes = std::min(options.max_nodes, options.max_delaunay_nodes);
@@ -54,7 +55,6 @@ NodeSurface refine(const TriangleMesh& mesh, const CleanReport& cleaning,
   } catch (const TooManyNodes&) {
     if (limited.max_nodes == options.max_nodes) throw;
   }
-  const Index enough = options.max_delaunay_nodes > 0 ? options.max_delaunay_nodes : kNone;
   return refine_by_bisection(mesh, options, report, enough);
 }
 

@@ -96,7 +96,7 @@ TEST_CASE("cloud distances converge with the spacing", "[cloud][slow]") {
     for (std::size_t g = 0; g < 8; ++g) {
       const Patch patch = grow_patch(nodes, groups[(2 * g + 1) * groups.size() / 16],
                                      reach + backend->margin(reach, nodes.longest_edge()));
-      const DistanceTable table = fill(*backend, patch, reach);
+      const DistanceTable table = fill(*backend, patch, Reach{radius, reach});
       for (Index i = 0; i < table.rows; i += table.rows / 8) {
         Patch one;
         one.core_nodes = 1;
