@@ -41,6 +41,7 @@ function(onmesh_folder name)
   endif()
   if(arg_CGAL)
     onmesh_objects(onmesh_${name}_cgal ${arg_CGAL})
+    set_target_properties(onmesh_${name}_cgal PROPERTIES UNITY_BUILD OFF)  # one file each
     target_link_libraries(onmesh_${name}_cgal PRIVATE CGAL::CGAL ${arg_DEPENDS})
   endif()
   list(TRANSFORM arg_PUBLIC_HEADERS PREPEND onmesh/${name}/)
@@ -60,10 +61,10 @@ function(onmesh_objects target)
   target_link_libraries(${target} PRIVATE onmesh_warnings Eigen3::Eigen)
   target_sources(onmesh PRIVATE $<TARGET_OBJECTS:${target}>)
 
-  # With CMAKE_UNITY_BUILD the files of a target are compiled as one, except those that Highway
-  # compiles once for each instruction set.
+  # With CMAKE_UNITY_BUILD the files of a target are compiled as one, except those that include Highway,
+  # which compiles them once for each instruction set.
   foreach(source IN LISTS ARGN)
-    file(STRINGS ${source} by_highway REGEX "define HWY_TARGET_INCLUDE")
+    file(STRINGS ${source} by_highway REGEX "#include <hwy/")
     if(by_highway)
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endif()
