@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "format.h"
+#include "onmesh/base/process_memory.h"
 
 namespace onmesh::tools {
 namespace {
@@ -114,8 +115,8 @@ void print_plan(const FilterPlan& plan, const Image& texture, std::ostream& out)
     }
     out << " apart\n";
   }
-  out << "memory        about " << format_bytes(plan.memory_bytes) << " of "
-      << format_bytes(plan.memory_limit) << '\n';
+  out << "memory        about " << memory_text(plan.memory_bytes) << " of "
+      << memory_text(plan.memory_limit) << '\n';
 }
 
 void print_summary(const FilterReport& report, double seconds, std::ostream& out) {

@@ -31,14 +31,6 @@ std::string format_seconds(double seconds) {
   return seconds >= 1 ? scaled(seconds, "s") : scaled(seconds * 1000, "ms");
 }
 
-std::string format_bytes(std::uint64_t bytes) {
-  const char* const units[] = {"B", "KB", "MB", "GB", "TB"};
-  int unit = 0;
-  double value = double(bytes);
-  while (value >= 1000 && unit < 4) value /= 1000, ++unit;
-  return unit == 0 ? std::to_string(bytes) + " B" : scaled(value, units[unit]);
-}
-
 std::string format_count(std::uint64_t count) {
   std::string digits = std::to_string(count);
   for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, 1, ',');

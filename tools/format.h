@@ -12,8 +12,6 @@ std::string format_number(double value);
 std::string format_percent(double share);
 /// "1.2 s", "350 ms", "3.50 min".
 std::string format_seconds(double seconds);
-/// "12.3 MB".
-std::string format_bytes(std::uint64_t bytes);
 /// "1,234,567".
 std::string format_count(std::uint64_t count);
 

@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <mutex>
 #include <random>
@@ -20,10 +19,6 @@ namespace {
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
   throw FileError(path.string() + ": " + what + ": " + std::generic_category().message(error));
-}
-
-fs::path folder_of(const fs::path& path) {
-  return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
 /// The temporaries that are there now, for a program that must end. Never destroyed: threads may
@@ -45,6 +40,10 @@ int create(const fs::path& path) {
 }
 
 }  // namespace
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
 
 fs::path follow_links(fs::path path) {
   constexpr int kLongestChain = 40;  // as the kernel has it

@@ -5,6 +5,9 @@
 
 namespace onmesh {
 
+/// The folder that a file is in, "." if its path names none.
+std::filesystem::path folder_of(const std::filesystem::path& path);
+
 /// Where a file goes in the end: symbolic links are followed, so that they stay links. What a link
 /// names need not be there.
 /// \throw FileError if links lead in a circle

@@ -74,10 +74,17 @@ std::uint64_t available_memory_bytes() {
 }
 
 std::string memory_text(std::uint64_t bytes) {
+  const char* const units[] = {"KB", "MB", "GB", "TB"};
+  if (bytes < 1000) return std::to_string(bytes) + " B";
+  int unit = 0;
+  double value = double(bytes) / 1000;
+  for (; value >= 1000 && unit < 3; ++unit) value /= 1000;
   char text[32];
-  const bool large = bytes >= 1'000'000'000;
-  std::snprintf(text, sizeof text, "%.1f %s", double(bytes) / (large ? 1e9 : 1e6),
-                large ? "GB" : "MB");
+  std::snprintf(text, sizeof text, "%.*f %s",
+                value < 10    ? 2
+                : value < 100 ? 1
+                              : 0,
+                value, units[unit]);
   return text;
 }
 

@@ -17,7 +17,7 @@ std::uint64_t resident_memory_bytes();
 /// (version 2) and the limit on its address space leave. 2^63 if the system tells nothing.
 std::uint64_t available_memory_bytes();
 
-/// "36.0 GB" (10^9 bytes), "12.3 MB".
+/// "36.0 GB" (10^9 bytes), "123 MB", "1.36 KB".
 std::string memory_text(std::uint64_t bytes);
 
 /// Measures how much memory a piece of work takes, apart from what ran before it in the process.

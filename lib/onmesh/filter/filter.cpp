@@ -105,7 +105,11 @@ struct RunContext {
 /// \param image gets a copy of the texture
 NodeSurface make_nodes(const RunContext& run, Image& image) {
   const FilterSetup& setup = run.setup;
-  const RefineOptions refinement = refinement_for(setup, setup.lengths);
+  RefineOptions refinement = refinement_for(setup, setup.lengths);
+  // Many times the estimate, which leaves out what bends ask for.
+  constexpr double kTooMany = 16;
+  refinement.max_delaunay_nodes =
+      Index(std::min(1e8, 20000 + kTooMany * double(setup.mesh_plan.nodes)));
   RefineReport refined;
   NodeSurface surface;
   // Most of the refinement runs on one thread; another one can copy the texture meanwhile.

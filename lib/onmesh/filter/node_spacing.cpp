@@ -58,10 +58,6 @@ RefineOptions refinement_for(const PreparedMesh& prepared, const WorkingPlan& pl
     const bool is_stretched = side > kStretch * plan.texel_size;
     options.least_useful.push_back(is_stretched ? side / kNodesPerTexel : 0);
   }
-  // Many times the estimate, which leaves out what bends ask for.
-  constexpr double kTooMany = 16;
-  options.max_delaunay_nodes =
-      Index(std::min(1e8, 20000 + kTooMany * estimate_nodes(prepared.mesh, options)));
   // Patches reach three edges beyond the radius, from node faces that reach an edge beyond the
   // texels; some more keep the faces there as small as they are where the spacing is not yet
   // larger.

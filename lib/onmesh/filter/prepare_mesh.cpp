@@ -104,6 +104,18 @@ double scale_into_range(const TriangleMesh& mesh) {
   return holds ? 1 : std::ldexp(1.0, -std::ilogb(size));
 }
 
+/// Working units are near the mesh's diagonal. Where texels are so much smaller that squares of
+/// lengths would not hold in single precision, they follow the texels.
+void fit_unit_to_texels(PreparedMesh& prepared) {
+  constexpr double kLeastTexel = 0x1p-24;
+  const double texel = prepared.map.median_texel_size();
+  if (!(texel > 0) || texel >= kLeastTexel) return;
+  const double scale = std::exp2(std::ceil(std::log2(kLeastTexel / texel)));
+  for (Vec3& p : prepared.mesh.positions) p *= scale;
+  for (double& area : prepared.map.texel_area) area *= scale * scale;
+  prepared.unit /= scale;
+}
+
 }  // namespace
 
 PreparedMesh prepare_mesh(const TriangleMesh& mesh, const Image& texture,
@@ -130,6 +142,7 @@ PreparedMesh prepare_mesh(const TriangleMesh& mesh, const Image& texture,
     return make_texel_map(out.mesh, texture.width, texture.height, {options.wrap, faces});
   });
   require_claims(out.mesh, out.map, faces);
+  fit_unit_to_texels(out);
   warn_of_tiles(out.mesh, out.map, out.warnings);
   return out;
 }

@@ -1,6 +1,5 @@
 #include "onmesh/filter/setup.h"
 
-#include <cmath>
 #include <utility>
 
 #include "onmesh/base/error.h"
@@ -112,22 +111,6 @@ void require_memory(const FilterPlan& plan) {
                    "with max_memory=bytes");
 }
 
-namespace {
-
-/// Working units are near the mesh's diagonal. Where texels are so much smaller that squares of
-/// lengths would not hold in single precision, they follow the texels.
-void fit_unit_to_texels(PreparedMesh& prepared) {
-  constexpr double kLeastTexel = 0x1p-24;
-  const double texel = prepared.map.median_texel_size();
-  if (!(texel > 0) || texel >= kLeastTexel) return;
-  const double scale = std::exp2(std::ceil(std::log2(kLeastTexel / texel)));
-  for (Vec3& p : prepared.mesh.positions) p *= scale;
-  for (double& area : prepared.map.texel_area) area *= scale * scale;
-  prepared.unit /= scale;
-}
-
-}  // namespace
-
 FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
                           const FilterOptions& options) {
   check_options(options, mesh.faces.size());
@@ -135,7 +118,6 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
     throw InputError("the texture has no channel but alpha: nothing to filter");
   }
   FilterSetup setup{prepare_mesh(mesh, texture, options), {}, {}, false, {}};
-  fit_unit_to_texels(setup);
   setup.overlap = OverlapPolicy(options.overlap, setup.map);
   if (!setup.overlap.texels().empty()) setup.warnings.push_back(setup.overlap.warning());
 

@@ -125,10 +125,6 @@ void verify(const fs::path& temporary, const fs::path& path, const ImageFormat& 
   }
 }
 
-fs::path folder_of(const fs::path& path) {
-  return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
 const char* type_words(SampleType type) {
   switch (type) {
     case TypeDesc::UINT8:
