@@ -80,11 +80,11 @@ Nodes make_nodes(const InputMesh& input, const DistanceLengths& lengths) {
   RefineOptions options;
   options.spacing = lengths.spacing;
   options.flat_faces = lengths.bridge > 0;
-  check_spacing(input.cleaned, lengths.spacing);
+  check_node_count(input.cleaned, options);
   Nodes nodes;
   RefineReport refined;
   nodes.surface =
-      naming(input.path, [&] { return refine(input.cleaned, input.cleaning, options, &refined); });
+      naming(input, [&] { return refine(input.cleaned, input.cleaning, options, &refined); });
   nodes.bisected = refined.bisected;
   if (lengths.bridge > 0) {
     nodes.bridges = add_bridges(input.cleaned, lengths.bridge, nodes.surface);
@@ -260,9 +260,11 @@ int run_distance(const Arguments& arguments) {
     check_interrupted();
   }
   const NodeSurface& surface = nodes.surface;
-  result.distances = request.exact() ? exact_distances(mesh, surface, result.source, lengths.radius)
-                                     : node_distances(mesh, surface, result.source, request.method,
-                                                      lengths.radius);
+  result.distances = naming(input, [&] {
+    return request.exact()
+               ? exact_distances(mesh, surface, result.source, lengths.radius)
+               : node_distances(mesh, surface, result.source, request.method, lengths.radius);
+  });
   result.seconds["distance"] = watch.lap();
   check_interrupted();
   if (request.compare) {

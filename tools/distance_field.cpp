@@ -5,10 +5,12 @@
 #include <limits>
 
 #include "format.h"
-#include "onmesh/base/plane.h"
+#include "onmesh/base/face_error.h"
+#include "onmesh/base/triangle.h"
 #include "onmesh/distance/make_backend.h"
 #include "onmesh/measure/nearby_geodesics.h"
 #include "onmesh/mesh/closest_point.h"
+#include "onmesh/nodes/expected_nodes.h"
 #include "onmesh/patches/grow_patch.h"
 #include "onmesh/samples/samples.h"
 
@@ -24,24 +26,10 @@ double longest_path(const NodeMesh& nodes) {
   return sum;
 }
 
-Vec3 uv_barycentric(const std::array<Vec2, 3>& c, const Vec2& p) {
-  const double area = cross(c[1] - c[0], c[2] - c[0]);
-  const double b1 = cross(p - c[0], c[2] - c[0]) / area;
-  const double b2 = cross(c[1] - c[0], p - c[0]) / area;
-  return {1 - b1 - b2, b1, b2};
-}
-
 Image empty_texture(const TexelMap& map) {
   Image image = make_image(map.width, map.height, 1);
   std::fill(image.pixels.begin(), image.pixels.end(), float(kNaN));
   return image;
-}
-
-// Nodes of a refinement to this spacing, about: their triangles are nearly equilateral.
-double estimated_nodes(const TriangleMesh& mesh, double spacing) {
-  double area = 0;
-  for (Index f = 0; f < mesh.faces.size(); ++f) area += mesh.face_area(f);
-  return double(mesh.positions.size()) + area / (0.87 * spacing * spacing);
 }
 
 void take_least(Image& image, Index texel, double distance) {
@@ -52,20 +40,16 @@ void take_least(Image& image, Index texel, double distance) {
 }  // namespace
 
 double default_spacing(const TriangleMesh& mesh, double radius) {
-  double spacing = std::min({mesh.mean_edge_length(), mesh.diagonal() / 100, radius / 5});
-  // Not more than about two million nodes unless someone asks for them.
-  const double least = mesh.diagonal() * 1e-9;
-  spacing = std::max(spacing, least);
-  const double added = estimated_nodes(mesh, spacing) - double(mesh.positions.size());
-  return added > 2e6 ? spacing * std::sqrt(added / 2e6) : spacing;
-}
-
-void check_spacing(const TriangleMesh& mesh, double spacing) {
-  constexpr double kMost = 1e7;  // some gigabytes
-  if (estimated_nodes(mesh, spacing) - double(mesh.positions.size()) < kMost) return;
-  throw UsageError("--spacing: " + format_number(spacing) + " would take about " +
-                   format_number(estimated_nodes(mesh, spacing)) +
-                   " nodes; at most 10,000,000 are made");
+  constexpr double kEnough = 2e6;  // nodes that are added, unless someone asks for more
+  RefineOptions options;
+  options.spacing = std::max(std::min({mesh.mean_edge_length(), mesh.diagonal() / 100, radius / 5}),
+                             mesh.diagonal() * 1e-9);
+  for (int tries = 0; tries < 8; ++tries) {
+    const double added = expected_nodes(mesh, options) - double(mesh.positions.size());
+    if (added <= kEnough) break;
+    options.spacing *= std::sqrt(added / kEnough);
+  }
+  return options.spacing;
 }
 
 DistanceSource source_at_vertex(const InputMesh& input, std::int64_t vertex) {
@@ -95,7 +79,7 @@ DistanceSource source_at_uv(const TriangleMesh& mesh, const Vec2& uv) {
     if (!((last - first).maxCoeff() < 20000)) continue;
     for (double y = std::ceil(first.y()); y <= last.y(); ++y) {
       for (double x = std::ceil(first.x()); x <= last.x(); ++x) {
-        Vec3 b = uv_barycentric(c, uv + Vec2(x, y));
+        Vec3 b = barycentric_in(c, uv + Vec2(x, y));
         if (!(b.minCoeff() >= -kRounding)) continue;  // also if the triangle has no area
         b = b.cwiseMax(0);
         return {{f, b / b.sum()}, kNone, 0};
@@ -144,6 +128,9 @@ std::vector<double> node_distances(const TriangleMesh& mesh, const NodeSurface& 
     start.barycentric = Vec3::Unit(k);
   } else {
     start = surface.overlay.locate(source.point);
+    if (start.face == kNone) {
+      throw FaceError<NumericError>(source.point.face, "it has no area to measure from");
+    }
   }
   const auto backend = make_backend(method, mesh, nodes);
   // A node of the source's face is up to an edge farther away than the source itself.

@@ -30,8 +30,6 @@ DistanceSource source_at_point(const TriangleMesh& mesh, const Vec3& point);
 /// Distance between nodes unless one is given: the mean edge, 1 % of the diagonal or a fifth of the
 /// radius, whichever is least, but not so small that there would be millions of nodes.
 double default_spacing(const TriangleMesh& mesh, double radius);
-/// \throw UsageError if that spacing would take more nodes than memory holds
-void check_spacing(const TriangleMesh& mesh, double spacing);
 
 /// For each vertex of the cleaned mesh its number in the welded one.
 std::vector<Index> welded_vertices(const InputMesh& input);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "onmesh/base/text.h"
 #include "onmesh/image/image_io.h"
 
 namespace onmesh::tools {
@@ -45,7 +46,7 @@ void check_outputs(const Arguments& arguments) {
   }
   if (!arguments.has("texture")) return;
   const std::string path = arguments.text("texture");
-  const std::string extension = lower_extension(path);
+  const std::string extension = lower_case(std::filesystem::path(path).extension().string());
   if (extension != ".exr" && extension != ".tif" && extension != ".tiff")
     throw UsageError("--texture: " + path +
                      " must end in .exr or .tif, other formats hold no distances");

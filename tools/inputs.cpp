@@ -2,13 +2,14 @@
 
 #include <unistd.h>
 
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 
+#include "format.h"
 #include "onmesh/image/image_io.h"
 #include "onmesh/mesh_io/read_mesh.h"
+#include "onmesh/nodes/expected_nodes.h"
 
 namespace onmesh::tools {
 
@@ -23,6 +24,14 @@ InputMesh read_input_mesh(const std::string& path) {
   return mesh;
 }
 
+void check_node_count(const TriangleMesh& mesh, const RefineOptions& options) {
+  constexpr double kMost = 1e7;  // some gigabytes
+  const double nodes = expected_nodes(mesh, options);
+  if (nodes - double(mesh.positions.size()) < kMost) return;
+  throw UsageError("--spacing: " + format_number(options.spacing) + " would take about " +
+                   format_number(nodes) + " nodes; at most 10,000,000 are made");
+}
+
 void check_writable_file(const std::string& path) {
   const fs::path target(path);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
@@ -33,12 +42,8 @@ void check_writable_file(const std::string& path) {
     throw FileError(path + ": cannot write here: it is a folder");
   if (!fs::exists(target, error) && ::access(folder.c_str(), W_OK | X_OK) != 0)
     throw FileError(path + ": cannot write in the folder: " + std::strerror(errno));
-}
-
-std::string lower_extension(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
+  if (fs::exists(target, error) && ::access(target.c_str(), W_OK) != 0)
+    throw FileError(path + ": cannot write here: " + std::strerror(errno));
 }
 
 }  // namespace onmesh::tools

@@ -7,6 +7,7 @@
 #include "onmesh/base/error.h"
 #include "onmesh/base/face_error.h"
 #include "onmesh/mesh/clean.h"
+#include "onmesh/nodes/refine.h"
 
 namespace onmesh::tools {
 
@@ -22,15 +23,21 @@ struct InputMesh {
 /// \throw FileError, InputError as read_mesh()
 InputMesh read_input_mesh(const std::string& path);
 
-/// Calls work(); an InputError that names neither the file nor a flag gets the file in front.
+/// The file in front of a message that begins with neither the file nor a flag.
+inline std::string named(const std::string& path, const std::string& message) {
+  const bool is_named = message.rfind("--", 0) == 0 || message.rfind(path, 0) == 0;
+  return is_named ? message : path + ": " + message;
+}
+
+/// Calls work(); errors of the input that name neither the file nor a flag get the file in front.
 template <class Work>
 auto naming(const std::string& path, Work work) {
   try {
     return work();
   } catch (const InputError& error) {
-    const std::string message = error.what();
-    const bool named = message.rfind("--", 0) == 0 || message.find(path) != std::string::npos;
-    throw InputError(named ? message : path + ": " + message);
+    throw InputError(named(path, error.what()));
+  } catch (const NumericError& error) {
+    throw NumericError(named(path, error.what()));
   }
 }
 
@@ -40,10 +47,10 @@ auto naming(const InputMesh& input, Work work) {
   return naming(input.path, [&] { return with_face_numbers(input.cleaning.kept, work); });
 }
 
+/// \throw UsageError of --spacing if refinement would make more nodes than a command should
+void check_node_count(const TriangleMesh& mesh, const RefineOptions& options);
+
 /// \throw FileError if a file cannot be written there later
 void check_writable_file(const std::string& path);
-
-/// ".exr", also for "A.EXR".
-std::string lower_extension(const std::string& path);
 
 }  // namespace onmesh::tools

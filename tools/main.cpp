@@ -101,6 +101,16 @@ int fail(const std::string& name, std::string message, int code) {
   return code;
 }
 
+void limit_instructions() {
+  const char* const level = std::getenv("ONMESH_SIMD");
+  if (level == nullptr) return;
+  try {
+    onmesh::limit_simd(level);
+  } catch (const onmesh::UsageError& error) {
+    throw onmesh::UsageError(std::string("ONMESH_SIMD: ") + error.what());
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -108,7 +118,7 @@ int main(int argc, char** argv) {
   int code = 0;
   install_signal_handling();
   try {
-    if (const char* const level = std::getenv("ONMESH_SIMD")) onmesh::limit_simd(level);
+    limit_instructions();
     code = run({argv + std::min(argc, 1), argv + argc}, name);
     std::cout.flush();
     if (!std::cout) throw onmesh::FileError("standard output: cannot write");

@@ -7,6 +7,7 @@
 #include "inputs.h"
 #include "interruption.h"
 #include "messages.h"
+#include "onmesh/base/text.h"
 #include "onmesh/image/image_io.h"
 #include "report.h"
 #include "shared_options.h"
@@ -120,7 +121,7 @@ void print_json(const std::string& path, const std::string& output, const Atlas&
 
 int run_map(const Arguments& arguments) {
   const std::string path = arguments.argument("mesh"), output = arguments.text("output");
-  if (lower_extension(output) != ".exr")
+  if (lower_case(std::filesystem::path(output).extension().string()) != ".exr")
     throw UsageError("--output: " + output + " must end in .exr, only EXR names its channels");
   check_writable_image(output, make_image(1, 1, kChannels));
   wrap_of(arguments);

@@ -25,7 +25,9 @@ Command refine_command() {
       "face is\n"
       "small and round enough. A mesh that is not manifold is cut into manifold pieces, "
       "which\n"
-      "are put together again. The input's vertices stay; the surface does not change at all.";
+      "are put together again; faces so thin that this fails are bisected. The input's vertices "
+      "stay;\n"
+      "the surface does not change at all.";
   command.examples =
       "  onmesh refine cube.obj --spacing 0.1 -o nodes.ply\n"
       "  onmesh refine scan.obj --spacing 1% --json\n";
@@ -54,7 +56,7 @@ double length_of(const Arguments& arguments, const std::string& name, double dia
 
 RefineOptions refine_options(const Arguments& arguments) {
   RefineOptions options;
-  options.growth = arguments.number("growth", 0, 100);
+  options.growth = arguments.number("growth", 1e-6, 100);
   options.min_angle_degrees = arguments.number("min-angle", 0, 30);
   return options;
 }
@@ -105,7 +107,7 @@ void print_json(const std::string& path, const RefineOptions& options, const Ref
                {"input_vertices", report.input_vertices},
                {"nodes", report.nodes},
                {"faces", report.faces},
-               {"refinement", "intrinsic"},
+               {"refinement", report.bisected ? "bisection" : "intrinsic"},
                {"flips", report.flips},
                {"insertions", report.insertions},
                {"smallest_angle_degrees", report.smallest_angle_degrees},
@@ -128,10 +130,13 @@ int run_refine(const Arguments& arguments) {
   const TriangleMesh mesh = clean(read, &cleaning);
   warn(warnings);
   set_lengths(arguments, mesh.diagonal(), options);
+  check_node_count(mesh, options);
   check_interrupted();
   RefineReport report;
-  const NodeSurface surface =
-      naming(path, [&] { return refine(mesh, cleaning, options, &report); });
+  const NodeSurface surface = naming(path, [&] {
+    return with_face_numbers(cleaning.kept,
+                             [&] { return refine(mesh, cleaning, options, &report); });
+  });
   check_interrupted();
   if (arguments.has("output")) write_nodes(arguments.text("output"), mesh, surface.nodes);
 
@@ -143,7 +148,8 @@ int run_refine(const Arguments& arguments) {
               << format_count(report.nodes) << " nodes, " << format_count(report.faces)
               << " faces (spacing " << options.spacing << ", mean edge " << found.mean_edge
               << ", smallest angle " << report.smallest_angle_degrees << " degrees, "
-              << format_count(report.flips) << " flips)\n";
+              << format_count(report.flips) << " flips" << (report.bisected ? ", by bisection" : "")
+              << ")\n";
   }
   return 0;
 }

@@ -1,8 +1,10 @@
 #include "onmesh/atlas/gutter_texels.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "onmesh/procedural/shapes.h"
 #include "support/cut_meshes.h"
 
 using namespace onmesh;
@@ -68,4 +70,16 @@ TEST_CASE("each gutter texel belongs to the nearest edge of all charts", "[gutte
       REQUIRE((a + found.position * (b - a) - centre).squaredNorm() == Approx(least).margin(1e-9));
     }
   }
+}
+
+TEST_CASE("more rings than there is room for cost nothing", "[gutter]") {
+  const TriangleMesh mesh = make_cube(4);
+  const TexelMap map = make_texel_map(mesh, 64, 64);
+  int grown = 0;
+  const std::vector<Index> all = gutter_texels(map, 32768, &grown);
+  CHECK(grown < 64);
+  CHECK(all == gutter_texels(map, grown));
+  CHECK(all.size() ==
+        std::size_t(std::count_if(map.coverage.begin(), map.coverage.end(),
+                                  [](Coverage c) { return c != Coverage::covered; })));
 }

@@ -31,5 +31,16 @@ TEST_CASE("the peak of memory grows by what is used, and stays once it is freed"
   CHECK(*meter.peak() >= meter.before() + kCounted);
 }
 
+TEST_CASE("what is resident and what is left are told", "[memory]") {
+  CHECK(resident_memory_bytes() > 1 << 20);
+  CHECK(resident_memory_bytes() <= peak_memory_bytes());
+  CHECK(available_memory_bytes() > 1 << 20);
+  CHECK(available_memory_bytes() < std::uint64_t{1} << 62);
+  CHECK(memory_text(7) == "7 B");
+  CHECK(memory_text(1360) == "1.36 KB");
+  CHECK(memory_text(123'400'000) == "123 MB");
+  CHECK(memory_text(36'000'000'000) == "36.0 GB");
+}
+
 }  // namespace
 }  // namespace onmesh

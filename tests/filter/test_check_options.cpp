@@ -50,7 +50,8 @@ TEST_CASE("options outside their domain are refused by the names of their fields
   CHECK(refusal([](O& o) { o.tolerance = 1e9; }) ==
         "tolerance: 1e+09 is not between 1e-09 and 1000");
   CHECK(refusal([](O& o) { o.threads = -1; }) == "threads" + not_negative);
-  CHECK(refusal([](O& o) { o.gutter = -1; }) == "gutter" + not_negative);
+  CHECK(refusal([](O& o) { o.gutter = -1; }) == "gutter: must be between 0 and 32768");
+  CHECK(refusal([](O& o) { o.gutter = 32769; }) == "gutter: must be between 0 and 32768");
   CHECK(refusal([](O& o) { o.faces = {true}; }) ==
         "faces: one entry per face of the mesh is needed");
 }
@@ -91,6 +92,39 @@ TEST_CASE("node spacings that would take more nodes than memory holds are refuse
   options.node_spacing = Length{1e-6, Length::Unit::mesh};
   CHECK_THROWS_WITH(plan_filter(make_plane(1, 1), make_image(16, 16, 1), options),
                     Catch::StartsWith("node_spacing: would make about"));
+}
+
+TEST_CASE("arrays that do not fit together are refused", "[options]") {
+  const TriangleMesh mesh = make_plane(1, 1);
+  const Image texture = make_image(8, 8, 3);
+  const auto refused = [&](const std::function<void(TriangleMesh&, Image&)>& spoil) {
+    TriangleMesh spoilt = mesh;
+    Image image = texture;
+    spoil(spoilt, image);
+    try {
+      filter(spoilt, image, {});
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  using M = TriangleMesh;
+  CHECK(refused([](M& m, Image&) { m.face_uvs.pop_back(); }) ==
+        "the mesh has 2 faces but 1 face_uvs");
+  CHECK(refused([](M& m, Image&) { m.face_materials.clear(); }) ==
+        "the mesh has 2 faces but 0 face_materials");
+  CHECK(refused([](M& m, Image&) { m.faces[1][2] = 4; }) ==
+        "face 1: a vertex index is out of range");
+  CHECK(refused([](M& m, Image&) { m.face_uvs[1][0] = 9; }) ==
+        "face 1: a UV index is out of range");
+  CHECK(refused([](M& m, Image&) { m.face_materials[0] = 7; }) ==
+        "face 0: its material is out of range");
+  CHECK(refused([](M& m, Image&) {
+          m.positions[3].y() = std::numeric_limits<double>::infinity();
+        }) == "vertex 3: its position is not finite");
+  CHECK(refused([](M&, Image& image) { image.pixels.pop_back(); }) ==
+        "the texture's pixels are not width * height * channels values");
+  CHECK(refused([](M&, Image&) {}).empty());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "onmesh/nodes/expected_nodes.h"
 #include "onmesh/procedural/shapes.h"
 
 namespace onmesh {
@@ -41,7 +42,7 @@ TEST_CASE("nodes are wanted only where texels are", "[spacing]") {
   CHECK_FALSE(few.needed[1]);
   CHECK(few.reach == many.reach);
   CHECK_FALSE(few.flat_faces);
-  CHECK(estimate_nodes(some.mesh, few) < 0.5 * estimate_nodes(all.mesh, many));
+  CHECK(expected_nodes(some.mesh, few) < 0.5 * expected_nodes(all.mesh, many));
   plan.bridge = 0.1;
   CHECK(refinement_for(all, plan).flat_faces);
 }

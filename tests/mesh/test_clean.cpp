@@ -129,3 +129,16 @@ TEST_CASE("a small fin is dropped, a flag on a pole is not", "[clean]") {
   CHECK(report.fins == 0);
   CHECK(report.duplicates == 1);
 }
+
+TEST_CASE("layers are parted also where a face without texels comes first", "[clean]") {
+  TriangleMesh mesh =
+      bare_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 2}, {0, 1, 2}});
+  mesh.uvs = {{0, 0}, {0.4, 0}, {0, 0.4}, {0.5, 0.5}, {0.9, 0.5}, {0.5, 0.9}};
+  mesh.face_uvs = {{kNone, kNone, kNone}, {0, 1, 2}, {3, 4, 5}};
+  CleanReport report;
+  const TriangleMesh cleaned = clean(mesh, &report);
+  CHECK(report.kept == std::vector<Index>{1, 2});
+  CHECK(report.duplicates == 1);
+  CHECK(report.separated > 0);
+  CHECK(cleaned.positions.size() == 6);
+}

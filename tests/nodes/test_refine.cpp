@@ -216,7 +216,7 @@ TEST_CASE("strips and spikes whose faces carry nothing take few nodes", "[refine
   options.needed = {true, true, false};
   CleanReport cleaning;
   RefineReport report;
-  options.max_delaunay_nodes = 20000;
+  options.enough_nodes = 20000;
   refine(clean(spike, &cleaning), cleaning, options, &report);
   CHECK(report.nodes < 20001);
 
@@ -224,10 +224,10 @@ TEST_CASE("strips and spikes whose faces carry nothing take few nodes", "[refine
   options.spacing = 4000;
   options.needed.clear();
   options.least_useful.assign(strip.faces.size(), 2e6);
-  options.max_delaunay_nodes = 50000;
+  options.enough_nodes = 50000;
   refine(clean(strip, &cleaning), cleaning, options, &report);
   CHECK(report.nodes > 500);  // along the strip
-  CHECK(report.nodes <= options.max_delaunay_nodes);
+  CHECK(report.nodes <= options.enough_nodes);
 }
 
 TEST_CASE("only meshes whose faces must stay flat are bisected", "[refine]") {

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "onmesh/base/error.h"
@@ -80,8 +81,33 @@ TEST_CASE("far from needed faces the wanted spacing grows with the distance", "[
   CHECK(remoteness({0, Vec3::Constant(1.0 / 3)}) == 0);
   options.needed.clear();
   CHECK(Remoteness(mesh, options)({99, Vec3::Constant(1.0 / 3)}) == 0);
-  options.needed.assign(3, true);
-  CHECK_THROWS_AS(Remoteness(mesh, options), UsageError);
+}
+
+TEST_CASE("refinement refuses options outside their domain by their fields", "[sizing_field]") {
+  const TriangleMesh mesh = make_plane(1, 1);
+  const auto refused = [&](const std::function<void(RefineOptions&)>& change) {
+    RefineOptions options = spaced(0.1);
+    change(options);
+    try {
+      check_refine_options(mesh, options);
+    } catch (const OptionError& error) {
+      return error.option();
+    }
+    return std::string();
+  };
+  using R = RefineOptions;
+  CHECK(refused([](R&) {}).empty());
+  CHECK(refused([](R& o) { o.spacing = 0; }) == "spacing");
+  CHECK(refused([](R& o) { o.curved = 0.2; }) == "curved");
+  CHECK(refused([](R& o) { o.finest = -1; }) == "finest");
+  CHECK(refused([](R& o) { o.flatness = -1; }) == "flatness");
+  CHECK(refused([](R& o) { o.spread = std::nan(""); }) == "spread");
+  CHECK(refused([](R& o) { o.sharpness = -1; }) == "sharpness");
+  CHECK(refused([](R& o) { o.growth = 0; }) == "growth");
+  CHECK(refused([](R& o) { o.min_angle_degrees = 31; }) == "min_angle_degrees");
+  CHECK(refused([](R& o) { o.reach = -1; }) == "reach");
+  CHECK(refused([](R& o) { o.needed.assign(3, true); }) == "needed");
+  CHECK(refused([](R& o) { o.least_useful.assign(1, 1); }) == "least_useful");
 }
 
 }  // namespace onmesh

@@ -241,3 +241,25 @@ TEST_CASE("real meshes that are not manifold are filtered, or told why not", "[t
     CHECK(run.json()["counts"]["texels"] > 1000);
   }
 }
+
+TEST_CASE("the plan bounds nodes and memory within twice what is used", "[tools][filter][slow]") {
+  const Workspace space;
+  for (const std::string name :
+       {"book", "chest", "folded-sheet", "noisy-cube", "plane", "sphere", "u-sheet"}) {
+    for (const std::string options :
+         {"", " --kind gaussian --sigma-spatial 8tx", " --distance heat", " --samples poisson"}) {
+      const std::string command = "filter " + (source_folder() / "meshes" / name).string() +
+                                  ".obj -o o.exr --json --quiet" + options;
+      const auto plan = space.must(command + " --dry-run").json()["plan"];
+      const auto report = space.must(command).json();
+      const double nodes = report["counts"]["nodes"], memory = report["peak_memory_bytes"];
+      const double expected_nodes = plan["estimated_nodes"];
+      const double expected_memory = plan["estimated_memory_bytes"];
+      CAPTURE(command, nodes, expected_nodes, memory, expected_memory);
+      CHECK(nodes <= expected_nodes);
+      CHECK(expected_nodes <= 2 * nodes);
+      CHECK(memory <= expected_memory);
+      CHECK(expected_memory <= 2 * memory);
+    }
+  }
+}

@@ -1,5 +1,6 @@
 // The program's manners: help, messages, exit codes, what it leaves behind.
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -161,4 +162,13 @@ TEST_CASE("a missing material file is named in the error that follows from it", 
              "f 1/1 2/2 3/3\n");
   check_refused(space, "filter m.obj -o o.png", 2, "none.mtl");
   check_refused(space, "filter m.obj -o o.png", 2, "give one with -t");
+}
+
+TEST_CASE("an instruction set that does not exist is refused by the variable's name", "[tools]") {
+  const Workspace space;
+  ::setenv("ONMESH_SIMD", "SSE17", 1);
+  const Run run = space.run("--version");
+  ::unsetenv("ONMESH_SIMD");
+  CHECK(run.code == 2);
+  CHECK_THAT(run.err, Contains("ONMESH_SIMD: ") && Contains("SSE17"));
 }

@@ -21,9 +21,8 @@ struct Charts {
 /// \param neighbours of the used faces
 /// \param used per face: has UVs, no vertex twice, and carries a texture
 /// \param holds_texels per face: used, with UV area and surface area
-/// \param image_of_face which image each used face looks up: another one, another chart. Empty =
-/// all
-///   look up the same.
+/// \param image_of_face which image each used face looks up: another one, another chart. Empty: all
+///   look up the same
 Charts find_charts(const UvNeighbours& neighbours, const std::vector<bool>& used,
                    const std::vector<bool>& holds_texels,
                    const std::vector<Index>& image_of_face = {});

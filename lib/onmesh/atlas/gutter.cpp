@@ -92,9 +92,8 @@ Place GutterFill::look_at(const NearestEdge& nearest) const {
 bool GutterFill::continue_surface(const Place& place, float* values) const {
   WalkEnd end = walk_.over_surface(place.laid, place.edge_point, place.beyond);
   if (map_.chart_of_face[end.laid.face] == kNone) end = {place.laid, place.edge_point, false};
-  const Vec3 b = barycentric_in(end.laid.corners, end.point);
-  const auto corners = walk_.pixel_corners(end.laid.face);
-  const Vec2 there = b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2];
+  const Vec2 there =
+      interpolate(walk_.pixel_corners(end.laid.face), barycentric_in(end.laid.corners, end.point));
   if (lookup_.bilinear(end.laid, there, values)) return true;
   const Vec2 here = end.arrived
                         ? place.centre
@@ -113,8 +112,7 @@ bool GutterFill::continue_surface(const Place& place, float* values) const {
 void GutterFill::limit(const Place& place, const LaidFace& across, float* values) const {
   const auto corners = walk_.pixel_corners(across.face);
   const auto pixel_at = [&](const Vec2& point) {
-    const Vec3 b = barycentric_in(across.corners, point);
-    return Vec2(b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2]);
+    return interpolate(corners, barycentric_in(across.corners, point));
   };
   const Vec2 there = pixel_at(place.edge_point);
   // Nothing is hidden from this chart that is no finer there.
@@ -194,8 +192,9 @@ void GutterFill::fill(Index texel, const NearestEdge& nearest) const {
 
 std::vector<Index> fill_gutter(const TriangleMesh& mesh, const TexelMap& map, int rings,
                                Image& image) {
-  std::vector<Index> gutter = gutter_texels(map, rings);
-  const std::vector<NearestEdge> nearest = nearest_edges(mesh, map, rings, gutter);
+  int grown = 0;
+  std::vector<Index> gutter = gutter_texels(map, rings, &grown);
+  const std::vector<NearestEdge> nearest = nearest_edges(mesh, map, grown, gutter);
   const GutterFill fill(mesh, map, image);
   parallel_over(gutter.size(), [&](std::size_t i) {
     if (nearest[i].face != kNone) fill.fill(gutter[i], nearest[i]);

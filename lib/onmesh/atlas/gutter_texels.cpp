@@ -207,7 +207,7 @@ std::vector<Index> border_texels(const std::vector<Coverage>& mask, Index width)
 
 }  // namespace
 
-std::vector<Index> gutter_texels(const TexelMap& map, int rings) {
+std::vector<Index> gutter_texels(const TexelMap& map, int rings, int* grown) {
   std::vector<Coverage> mask = map.coverage;  // grows by a ring at a time
   std::vector<Index> gutter;
   for (Index i = 0; i < mask.size(); ++i)
@@ -215,7 +215,8 @@ std::vector<Index> gutter_texels(const TexelMap& map, int rings) {
 
   std::vector<Index> front;
   if (rings > 0) front = border_texels(mask, Index(map.width));
-  for (int ring = 0; ring < rings && !front.empty(); ++ring) {
+  int ring = 0;
+  for (; ring < rings && !front.empty(); ++ring) {
     std::vector<Index> found;
     for (const Index texel : front)
       visit_neighbours(map, texel, [&](Index n) {
@@ -227,6 +228,7 @@ std::vector<Index> gutter_texels(const TexelMap& map, int rings) {
     gutter.insert(gutter.end(), found.begin(), found.end());
     front = std::move(found);
   }
+  if (grown != nullptr) *grown = ring;
   std::sort(gutter.begin(), gutter.end());
   return gutter;
 }

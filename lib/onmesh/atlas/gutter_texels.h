@@ -8,7 +8,8 @@
 namespace onmesh {
 
 /// Touched texels and `rings` rings around touched and covered ones, ascending.
-std::vector<Index> gutter_texels(const TexelMap& map, int rings);
+/// \param grown if given, receives how many rings there are: fewer where the image is full
+std::vector<Index> gutter_texels(const TexelMap& map, int rings, int* grown = nullptr);
 
 /// The closest point of the charts' boundaries to a gutter texel's centre.
 struct NearestEdge {
@@ -22,7 +23,8 @@ struct NearestEdge {
 /// For each gutter texel the nearest edge that bounds a chart, by distance from its centre in
 /// pixels. Ties go to the lowest chart; in one chart, at a corner, to the edge that the texel lies
 /// further beyond.
-/// \param gutter from gutter_texels(), with as many rings
+/// \param rings that there are: gutter_texels()'s `grown`, or more
+/// \param gutter from gutter_texels()
 std::vector<NearestEdge> nearest_edges(const TriangleMesh& mesh, const TexelMap& map, int rings,
                                        const std::vector<Index>& gutter);
 

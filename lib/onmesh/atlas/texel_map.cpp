@@ -16,6 +16,7 @@
 #include "onmesh/atlas/uv_triangle.h"
 #include "onmesh/base/face_error.h"
 #include "onmesh/base/parallel.h"
+#include "onmesh/base/plane.h"
 #include "onmesh/base/triangle.h"
 #include "onmesh/mesh/edge_table.h"
 
@@ -42,7 +43,7 @@ void check(const TriangleMesh& mesh, const std::vector<bool>& used, const TexelM
         kFurthestTexel)
       throw FaceError<InputError>(f, "its UVs lie too far from [0,1]");
     const Vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
-    total += std::abs(a.x() * b.y() - a.y() * b.x()) / 2 * map.width * map.height;
+    total += std::abs(cross(a, b)) / 2 * map.width * map.height;
   }
   if (map.wrap == Wrap::repeat && total > kMostClaims)
     throw InputError("the UVs repeat the texture too often: more than 2^31 texels are covered");

@@ -84,9 +84,11 @@ struct TexelMapOptions {
 /// Find out which texels of a width x height image lie on which face.
 ///
 /// Texel (i, j) has its centre at u = (i + .5) / width, v = 1 - (j + .5) / height. Faces without
-/// UVs, with a vertex twice, with a zero-area UV triangle or without surface area claim nothing.
+/// UVs, with a vertex twice, with a zero-area UV triangle or without surface area
+/// (TriangleMesh::is_degenerate()) claim nothing.
 /// With Wrap::clamp, texels outside the image are not claimed. The result does not depend on the
 /// number of threads.
+/// \pre width and height are in [1, 32768]
 /// \throw FaceError<InputError> if a face's UVs are not finite, span more than 2^14 tiles or lie
 ///   further than 2^30 texels away
 /// \throw InputError if more than 2^31 texels are claimed

@@ -83,12 +83,12 @@ Index UnfoldedWalk::across_in_chart(Index face, int k) const {
   return at != in_chart_.end() && at->first == i ? at->second : across_[i];
 }
 
-bool UnfoldedWalk::uvs_agree(Index face, std::size_t a, Index g, std::size_t c) const {
-  const auto &fu = mesh_.face_uvs[face], &gu = mesh_.face_uvs[g];
-  if (fu[a] == kNone || fu[next(a)] == kNone) return false;
-  const bool opposed = mesh_.faces[face][a] == mesh_.faces[g][next(c)];
-  return opposed ? fu[a] == gu[next(c)] && fu[next(a)] == gu[c]
-                 : fu[a] == gu[c] && fu[next(a)] == gu[next(c)];
+bool UnfoldedWalk::uvs_agree(Index face, std::size_t k, Index other, std::size_t l) const {
+  const auto &uvs = mesh_.face_uvs[face], &other_uvs = mesh_.face_uvs[other];
+  if (uvs[k] == kNone || uvs[next(k)] == kNone) return false;
+  const bool opposed = mesh_.faces[face][k] == mesh_.faces[other][next(l)];
+  return opposed ? uvs[k] == other_uvs[next(l)] && uvs[next(k)] == other_uvs[l]
+                 : uvs[k] == other_uvs[l] && uvs[next(k)] == other_uvs[next(l)];
 }
 
 std::array<Vec2, 3> UnfoldedWalk::pixel_corners(Index face) const {
@@ -195,7 +195,7 @@ WalkEnd UnfoldedWalk::walk(const LaidFace& start, const Vec2& from, const Vec2& 
   const double winding = twice_area(corners[0], corners[1], corners[2]) > 0 ? 1 : -1;
   const double side = winding * twice_area(from, to, corners[corner]);
   const std::size_t choice = side > 0 ? first : corner;
-  const WalkEnd result = walk_out<by_uv>(start, int(choice), from, to);
+  WalkEnd result = walk_out<by_uv>(start, int(choice), from, to);
   const bool through_corner =
       std::abs(side) <= 1e-9 * (to - from).norm() * (corners[0] - corners[1]).norm();
   if (result.arrived || !through_corner) return result;

@@ -19,9 +19,7 @@ struct LaidFace {
   std::array<Vec2, 3> corners;
   double winding = 1;  ///< 1 if the corners run anticlockwise, -1 if clockwise
 
-  Vec2 point(const Vec3& barycentric) const {
-    return barycentric[0] * corners[0] + barycentric[1] * corners[1] + barycentric[2] * corners[2];
-  }
+  Vec2 point(const Vec3& barycentric) const { return interpolate(corners, barycentric); }
 };
 
 /// Where a walk ended.

@@ -25,10 +25,9 @@ double pixel_tolerance(const TriangleMesh& mesh, const std::vector<bool>& used, 
 }
 
 double texel_area(const TriangleMesh& mesh, Index face, const UvTriangle& triangle) {
-  const auto p = mesh.corners(face);
-  const double surface = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
-  const double texel = surface / std::abs(triangle.area);
-  return !triangle.flat && texel > 0 && std::isfinite(texel) ? texel : 0;
+  if (triangle.flat || mesh.is_degenerate(face)) return 0;
+  const double texel = mesh.face_area(face) / std::abs(triangle.area);
+  return std::isfinite(texel) ? texel : 0;
 }
 
 UvTriangle::UvTriangle(const TriangleMesh& mesh, Index face, int width, int height,

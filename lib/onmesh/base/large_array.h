@@ -1,4 +1,4 @@
-// Arrays of hundreds of megabytes that are written once, by all threads (internal).
+// Arrays of hundreds of megabytes that are written once, by all threads.
 #pragma once
 
 #include <memory>

@@ -17,18 +17,18 @@ namespace {
 
 constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 63;
 
-/// A line of a file such as /proc/self/status in bytes, 0 if it is not there.
-std::uint64_t line_bytes(const char* file, const std::string& name) {
+/// The number after a word of a file, 0 if it is not there.
+std::uint64_t number_after(const std::filesystem::path& file, const std::string& name) {
   std::ifstream status(file);
   for (std::string word; status >> word;) {
-    std::uint64_t kilobytes = 0;
-    if (word == name + ':' && status >> kilobytes) return 1024 * kilobytes;
+    std::uint64_t number = 0;
+    if (word == name && status >> number) return number;
   }
   return 0;
 }
 
 std::uint64_t status_bytes(const std::string& name) {
-  return line_bytes("/proc/self/status", name);
+  return 1024 * number_after("/proc/self/status", name + ':');
 }
 
 /// A file's number; unlimited if it has none ("max") or is not there.
@@ -50,7 +50,10 @@ std::uint64_t left_by_groups() {
   for (;; group = group.parent_path()) {
     const std::uint64_t most = number_in(group / "memory.max");
     if (most < kUnlimited) {
-      const std::uint64_t used = number_in(group / "memory.current");
+      // Pages of files count as used, but are given up before anybody is refused memory.
+      const std::uint64_t files = number_after(group / "memory.stat", "inactive_file");
+      const std::uint64_t taken = number_in(group / "memory.current");
+      const std::uint64_t used = taken - std::min(taken, files);
       left = std::min(left, most > used ? most - used : 0);
     }
     if (group == root || !group.has_relative_path()) return left;
@@ -69,7 +72,7 @@ std::uint64_t left_of_address_space() {
 std::uint64_t resident_memory_bytes() { return status_bytes("VmRSS"); }
 
 std::uint64_t available_memory_bytes() {
-  const std::uint64_t machine = line_bytes("/proc/meminfo", "MemAvailable");
+  const std::uint64_t machine = 1024 * number_after("/proc/meminfo", "MemAvailable:");
   return std::min({machine > 0 ? machine : kUnlimited, left_by_groups(), left_of_address_space()});
 }
 

@@ -1,14 +1,23 @@
-// Numbers in sentences.
+// Text that people read or have written.
 #pragma once
 
+#include <cctype>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace onmesh {
 
 /// "1 face", "3 faces": the count and the word, or words, that go with it.
 inline std::string count_text(std::uint64_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+/// ASCII letters in lower case, all else as it is.
+inline std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
 }
 
 }  // namespace onmesh

@@ -9,7 +9,7 @@
 #include <limits>
 #include <optional>
 
-#include "onmesh/base/error.h"
+#include "onmesh/base/face_error.h"
 #include "onmesh/patches/grow_patch.h"
 
 namespace onmesh {
@@ -80,8 +80,9 @@ class Submesh {
       }
       face_of_[f] = surface_.add_face(corner[0], corner[1], corner[2]);
       if (face_of_[f] == Surface::null_face())
-        throw InputError("exact distances need a manifold, consistently wound mesh: face " +
-                         std::to_string(f) + " does not fit its neighbours");
+        throw FaceError<InputError>(f,
+                                    "it does not fit its neighbours: exact distances need a "
+                                    "manifold, consistently wound mesh");
       vertices_.push_back(corner);
     }
     slot_.assign(mesh_.faces.size(), kNone);

@@ -1,16 +1,21 @@
 #include "onmesh/filter/check_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
 
-#include "onmesh/base/error.h"
+#include "onmesh/base/face_error.h"
+#include "onmesh/base/text.h"
 
 namespace onmesh {
 namespace {
 
 /// Squares of values between these, and their reciprocals, hold in single precision.
 constexpr double kLeastValue = 1e-15, kLargestValue = 1e15;
+
+/// More rings than an image has rows.
+constexpr int kMostRings = 32768;
 
 std::string number_text(double value) {
   char text[32];
@@ -33,7 +38,9 @@ void check_numbers(const FilterOptions& options) {
   require_within("tolerance", options.tolerance, 1e-9, 1e3);
   check("bridge", options.bridge);
   if (options.threads < 0) throw OptionError("threads", "must not be negative");
-  if (options.gutter < 0) throw OptionError("gutter", "must not be negative");
+  if (options.gutter < 0 || options.gutter > kMostRings) {
+    throw OptionError("gutter", "must be between 0 and " + std::to_string(kMostRings));
+  }
 }
 
 void check_combination(const FilterOptions& options) {
@@ -44,6 +51,12 @@ void check_combination(const FilterOptions& options) {
   if (options.samples != SampleKind::poisson && (options.spacing || options.r_coef)) {
     throw OptionError(options.spacing ? "spacing" : "r_coef", "only with samples=poisson");
   }
+}
+
+void check_count(const char* what, std::size_t count, std::size_t faces) {
+  if (count == faces) return;
+  throw InputError("the mesh has " + count_text(faces, "face", "faces") + " but " +
+                   std::to_string(count) + " " + what);
 }
 
 }  // namespace
@@ -67,6 +80,37 @@ void check_options(const FilterOptions& options, std::size_t faces) {
   check_combination(options);
   if (!options.faces.empty() && options.faces.size() != faces) {
     throw OptionError("faces", "one entry per face of the mesh is needed");
+  }
+}
+
+void check_arrays(const TriangleMesh& mesh, const Image& texture) {
+  check_count("face_uvs", mesh.face_uvs.size(), mesh.faces.size());
+  check_count("face_materials", mesh.face_materials.size(), mesh.faces.size());
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (mesh.faces[f][k] >= mesh.positions.size()) {
+        throw FaceError<InputError>(f, "a vertex index is out of range");
+      }
+      const Index uv = mesh.face_uvs[f][k];
+      if (uv != kNone && uv >= mesh.uvs.size()) {
+        throw FaceError<InputError>(f, "a UV index is out of range");
+      }
+    }
+    const Index material = mesh.face_materials[f];
+    if (material != kNone && material >= mesh.materials.size()) {
+      throw FaceError<InputError>(f, "its material is out of range");
+    }
+  }
+  for (Index v = 0; v < mesh.positions.size(); ++v) {
+    if (!mesh.positions[v].allFinite()) {
+      throw InputError("vertex " + std::to_string(v) + ": its position is not finite");
+    }
+  }
+  const auto values = [](int n) { return std::size_t(std::max(n, 0)); };
+  if (texture.pixels.size() !=
+          values(texture.width) * values(texture.height) * values(texture.channels) ||
+      texture.pixels.empty()) {
+    throw InputError("the texture's pixels are not width * height * channels values");
   }
 }
 

@@ -4,6 +4,8 @@
 #include <cstddef>
 
 #include "onmesh/filter/options.h"
+#include "onmesh/image/image.h"
+#include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {
 
@@ -20,5 +22,9 @@ void require_within(const char* option, double value, double least, double large
 /// \param faces of the mesh as given
 /// \throw OptionError naming the field of FilterOptions
 void check_options(const FilterOptions& options, std::size_t faces);
+
+/// \throw InputError if the mesh's or the texture's arrays do not fit together, or a position is
+///   not finite
+void check_arrays(const TriangleMesh& mesh, const Image& texture);
 
 }  // namespace onmesh

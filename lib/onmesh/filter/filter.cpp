@@ -106,16 +106,23 @@ struct RunContext {
 NodeSurface make_nodes(const RunContext& run, Image& image) {
   const FilterSetup& setup = run.setup;
   RefineOptions refinement = refinement_for(setup, setup.lengths);
-  // Many times the estimate, which leaves out what bends ask for.
-  constexpr double kTooMany = 16;
-  refinement.max_delaunay_nodes =
-      Index(std::min(1e8, 20000 + kTooMany * double(setup.mesh_plan.nodes)));
+  // The plan has an upper bound. Needles and strips can go beyond, by what is nothing to speak of.
+  constexpr double kLittle = 20000;
+  refinement.enough_nodes = Index(std::min(1e8, 1.5 * double(setup.mesh_plan.nodes) + kLittle));
   RefineReport refined;
   NodeSurface surface;
   // Most of the refinement runs on one thread; another one can copy the texture meanwhile.
   tbb::parallel_invoke([&] { surface = refine(setup.mesh, setup.cleaning, refinement, &refined); },
                        [&] { image = run.texture; });
   run.report.refinement = refined.bisected ? "bisection" : "intrinsic";
+  if (refined.coarser > 1) {
+    run.report.warnings.push_back((std::isfinite(refined.coarser)
+                                       ? "the nodes are " +
+                                             std::to_string(std::uint64_t(refined.coarser)) +
+                                             " times as far apart as wanted"
+                                       : std::string("the only nodes are the vertices")) +
+                                  ": too many faces are needles");
+  }
   if (setup.lengths.bridge > 0) {
     run.report.bridges = add_bridges(setup.mesh, setup.lengths.bridge, surface);
   }

@@ -24,15 +24,19 @@ namespace onmesh {
 /// \param progress called now and then; may throw to cancel the work
 /// \return the texture with filtered values, its format as before
 /// \throw OptionError for options outside their domain or ignored by the mode chosen
-/// \throw InputError if no face carries a texel; if exact distances are asked for on a mesh that is
-///   not manifold, or would take more than an hour; or if a texel is claimed twice with
-///   Overlap::error
+/// \throw InputError if arrays of the mesh or the texture do not fit together; if no face carries a
+///   texel or the texture has no channel but alpha; if exact distances are asked for on a mesh that
+///   is not manifold, or would take more than an hour; if a texel is claimed twice with
+///   Overlap::error; if there is too little memory
+/// \throw NumericError if a linear system of heat or cloud cannot be solved
 /// \throw FaceError<InputError>, FaceError<NumericError> at a face, by its number in `mesh`
 Image filter(const TriangleMesh& mesh, const Image& texture, const FilterOptions& options,
              FilterReport* report = nullptr, const Progress& progress = {});
 
-/// Check everything that filter() checks before its work starts, and tell what it would do.
-/// \throw as filter()
+/// Check what filter() checks before its work starts, and tell what it would do. That there is too
+/// little memory shows in memory_bytes > memory_limit; how long exact distances take is not
+/// estimated.
+/// \throw as filter() before its work starts
 FilterPlan plan_filter(const TriangleMesh& mesh, const Image& texture,
                        const FilterOptions& options);
 

@@ -1,9 +1,9 @@
 #include "onmesh/filter/node_spacing.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
-
-#include "onmesh/nodes/sizing_field.h"
 
 namespace onmesh {
 namespace {
@@ -14,7 +14,7 @@ constexpr double kFlatness = 0.0072;
 
 /// Along the longer side of a texel, so many nodes are of use, if it is so many times longer than
 /// texels are as a rule.
-constexpr double kNodesPerTexel = 4, kStretch = 4;
+constexpr double kNodesPerTexel = 2, kStretch = 4;
 
 /// The longest side of a face's texels on the surface, working units; 0 where it has none.
 double longest_texel_side(const PreparedMesh& prepared, Index face) {
@@ -54,7 +54,9 @@ RefineOptions refinement_for(const PreparedMesh& prepared, const WorkingPlan& pl
   options.needed.reserve(prepared.mesh.faces.size());
   for (const double area : prepared.map.texel_area) options.needed.push_back(area > 0);
   for (Index f = 0; f < prepared.mesh.faces.size(); ++f) {
-    const double side = longest_texel_side(prepared, f);
+    // What has no area holds nothing at all.
+    const double side = prepared.mesh.is_degenerate(f) ? std::numeric_limits<double>::max()
+                                                       : longest_texel_side(prepared, f);
     const bool is_stretched = side > kStretch * plan.texel_size;
     options.least_useful.push_back(is_stretched ? side / kNodesPerTexel : 0);
   }
@@ -63,21 +65,6 @@ RefineOptions refinement_for(const PreparedMesh& prepared, const WorkingPlan& pl
   // larger.
   options.reach = plan.radius + std::max(9 * plan.curved_spacing, 6 * plan.node_spacing);
   return options;
-}
-
-double estimate_nodes(const TriangleMesh& mesh, const RefineOptions& refinement) {
-  // Twice the area of an equilateral triangle per node; refinement stays somewhat below the
-  // spacing.
-  const Remoteness remoteness(mesh, refinement);
-  double nodes = double(mesh.positions.size());
-  for (Index f = 0; f < mesh.faces.size(); ++f) {
-    const SurfacePoint middle{f, Vec3::Constant(1.0 / 3)};
-    const double useful = largest_spacing(refinement, middle);
-    const double spacing =
-        (useful > refinement.spacing ? useful : refinement.curved) + remoteness(middle);
-    nodes += 1.2 * mesh.face_area(f) / (spacing * spacing * std::numbers::sqrt3 / 2);
-  }
-  return nodes;
 }
 
 }  // namespace onmesh

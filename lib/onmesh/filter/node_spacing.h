@@ -31,7 +31,4 @@ NodeSpacing node_spacing_for(double sigma, double radius, double texel_size,
 /// Nodes as the plan wants them, where texels are and as far around as paths between them lead.
 RefineOptions refinement_for(const PreparedMesh& prepared, const WorkingPlan& plan);
 
-/// \return about how many nodes that refinement makes
-double estimate_nodes(const TriangleMesh& mesh, const RefineOptions& refinement);
-
 }  // namespace onmesh

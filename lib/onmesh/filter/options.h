@@ -69,7 +69,7 @@ struct FilterOptions {
 
   Wrap wrap = Wrap::repeat;            ///< how UVs outside [0,1] are read
   Overlap overlap = Overlap::average;  ///< texels that several places of the surface claim
-  int gutter = 2;                      ///< rings of texels filled around the charts, >= 0
+  int gutter = 2;                      ///< rings of texels filled around the charts, [0, 32768]
   /// Per face of the mesh as given: whether it carries the texture. Empty = all faces with UVs.
   std::vector<bool> faces;
   int threads = 0;  ///< >= 0; 0 = as many as there are processors

@@ -1,5 +1,7 @@
 #include "onmesh/filter/setup.h"
 
+#include <tbb/info.h>
+
 #include <utility>
 
 #include "onmesh/base/error.h"
@@ -7,6 +9,7 @@
 #include "onmesh/base/text.h"
 #include "onmesh/filter/check_options.h"
 #include "onmesh/filter/node_spacing.h"
+#include "onmesh/nodes/expected_nodes.h"
 #include "onmesh/poisson/spacing_field.h"
 
 namespace onmesh {
@@ -78,7 +81,7 @@ std::uint64_t plan_poisson(const PreparedMesh& prepared, const FilterOptions& op
 
 std::uint64_t plan_nodes(const PreparedMesh& prepared, const FilterOptions& options,
                          const WorkingPlan& plan) {
-  const double nodes = estimate_nodes(prepared.mesh, refinement_for(prepared, plan));
+  const double nodes = expected_nodes(prepared.mesh, refinement_for(prepared, plan));
   if (options.node_spacing && nodes > kMostNodes) {
     throw OptionError("node_spacing", "would make about " + std::to_string(std::uint64_t(nodes)) +
                                           " nodes, more than fit in memory; choose a larger one");
@@ -86,14 +89,23 @@ std::uint64_t plan_nodes(const PreparedMesh& prepared, const FilterOptions& opti
   return static_cast<std::uint64_t>(nodes);
 }
 
-/// A texel costs its claim, its samples, and its values in two images; a node with its two faces
-/// what refinement needs for it at most.
-std::uint64_t estimate_memory(const Image& texture, const FilterPlan& plan) {
-  constexpr double kBytesPerTexel = 26, kBytesPerSample = 16, kBytesPerNode = 900;
-  const double values = 2.0 * double(texture.pixels.size()) * sizeof(float);
-  return static_cast<std::uint64_t>(values + kBytesPerTexel * double(plan.texels) +
-                                    kBytesPerSample * double(plan.samples) +
-                                    kBytesPerNode * double(plan.nodes));
+/// Beside what is resident by now, the input with its texel map: the values of the result; what
+/// places a texel among the nodes; the samples, or what their sampler needs for them; what
+/// refinement needs for a node with its two faces at most; the tables and records of every thread.
+std::uint64_t estimate_memory(const Image& texture, const FilterPlan& plan, bool poisson,
+                              int threads) {
+  constexpr double kBytesPerTexel = 18, kBytesPerNode = 900;
+  const double bytes_per_sample = poisson ? 190 : 16;
+  constexpr double kBytesPerThread = 12e6;
+  const double values = double(texture.pixels.size()) * sizeof(float);
+  const double more = values + kBytesPerTexel * double(plan.texels) +
+                      bytes_per_sample * double(plan.samples) + kBytesPerNode * double(plan.nodes) +
+                      kBytesPerThread * threads;
+  return resident_memory_bytes() + static_cast<std::uint64_t>(more);
+}
+
+int thread_count(const FilterOptions& options) {
+  return options.threads > 0 ? options.threads : tbb::info::default_concurrency();
 }
 
 std::uint64_t memory_limit(const FilterOptions& options) {
@@ -113,6 +125,7 @@ void require_memory(const FilterPlan& plan) {
 
 FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
                           const FilterOptions& options) {
+  check_arrays(mesh, texture);
   check_options(options, mesh.faces.size());
   if (texture.range_channels().empty()) {
     throw InputError("the texture has no channel but alpha: nothing to filter");
@@ -134,7 +147,7 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   plan.overlapped = setup.overlap.texels().size();
   plan.samples = samples;
   plan.nodes = nodes;
-  plan.memory_bytes = estimate_memory(texture, plan);
+  plan.memory_bytes = estimate_memory(texture, plan, poisson, thread_count(options));
   plan.memory_limit = memory_limit(options);
   plan.warnings = std::move(setup.warnings);
   return setup;

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "onmesh/base/error.h"
+#include "onmesh/base/text.h"
 
 namespace onmesh {
 namespace {
@@ -96,9 +97,7 @@ const ImageFormat& image_format(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error))
     throw FileError(path.string() + ": cannot write here: it is a folder");
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string extension = lower_case(path.extension().string());
   for (const ImageFormat& format : formats())
     for (const char* known : format.extensions)
       if (extension == known) return format;

@@ -4,6 +4,7 @@
 #include <OpenImageIO/filesystem.h>
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -43,7 +44,8 @@ std::vector<std::byte> native_rows(const Image& image, const std::vector<SampleT
     std::size_t at = p * bytes;
     for (std::size_t c = 0; c < channels; ++c) {
       const std::size_t size = TypeDesc(types[c]).size();
-      if (std::memcmp(&were[p * channels + c], values + p * channels + c, sizeof(float)) == 0)
+      const auto bits = [&](float value) { return std::bit_cast<std::uint32_t>(value); };
+      if (bits(were[p * channels + c]) == bits(values[p * channels + c]))
         std::memcpy(native.data() + at, before + at, size);
       at += size;
     }

@@ -115,7 +115,7 @@ void advise_on_surface(const MeshReport& r, Lines& lines) {
   if (r.nonmanifold_edges > 0) {
     lines.push_back(count_text(r.nonmanifold_edges, "edge has", "edges have") +
                     " three or more faces: the filter goes on into each of them; split "
-                    " or remove the extra faces if they are not meant to be there");
+                    "or remove the extra faces if they are not meant to be there");
   }
   if (r.nonmanifold_vertices > 0) {
     lines.push_back(

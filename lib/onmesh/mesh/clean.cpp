@@ -119,6 +119,7 @@ bool choose_faces(const TriangleMesh& mesh, CleanReport& r) {
   const std::vector<bool> fin = find_fins(mesh, earlier);
   const std::vector<bool> repeats = find_repeats(mesh, earlier);
   const std::vector<bool> flat = find_flat_components(mesh);
+  std::vector<bool> taken(mesh.faces.size(), false);  // by a face kept, at the first of its copies
   bool coincident = false;
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     if (has_repeated_vertex(mesh.faces[f])) {
@@ -130,7 +131,9 @@ bool choose_faces(const TriangleMesh& mesh, CleanReport& r) {
     } else if (repeats[f]) {
       ++r.duplicates;
     } else {
-      coincident = coincident || (earlier[f] != kNone && !repeats[earlier[f]]);
+      const Index first = earlier[f] == kNone ? f : earlier[f];
+      coincident = coincident || taken[first];
+      taken[first] = true;
       r.kept.push_back(f);
     }
   }

@@ -23,6 +23,7 @@ class ClosestPoint {
   ClosestPoint& operator=(ClosestPoint&&) noexcept;
 
   /// Closest point of the surface; the lowest face index among equally close faces.
+  /// \pre point is finite, here and below
   SurfacePoint closest(const Vec3& point) const;
 
   /// The same among the faces whose label is not `label`, if any of them is within `limit`.

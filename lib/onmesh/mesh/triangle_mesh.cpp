@@ -30,9 +30,10 @@ class PointNumbers {
 
   /// The first of the points inserted so far that equals this one (itself if there is none).
   Index first_equal(Index point) {
+    if (!(points_[point] == points_[point])) return point;  // not a number: equals nothing
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t slot = hash(points_[point]) & mask;; slot = (slot + 1) & mask) {
-      if (slots_[slot] == kNone) return slots_[slot] = point;  // also what is not a number
+      if (slots_[slot] == kNone) return slots_[slot] = point;
       if (points_[slots_[slot]] == points_[point]) return slots_[slot];
     }
   }

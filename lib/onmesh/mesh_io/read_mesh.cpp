@@ -8,6 +8,7 @@
 #include "onmesh/base/byte_order.h"
 #include "onmesh/base/error.h"
 #include "onmesh/base/file_io.h"
+#include "onmesh/base/text.h"
 #include "onmesh/base/text_scan.h"
 #include "onmesh/mesh_io/read_obj.h"
 #include "onmesh/mesh_io/read_off.h"
@@ -21,19 +22,12 @@ namespace {
 enum class MeshFormat { obj, ply, off, stl };
 
 std::optional<MeshFormat> format_of_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lower_case(path.extension().string());
   if (extension == ".obj") return MeshFormat::obj;
   if (extension == ".ply") return MeshFormat::ply;
   if (extension == ".off") return MeshFormat::off;
   if (extension == ".stl") return MeshFormat::stl;
   return std::nullopt;
-}
-
-bool is_binary_stl(const std::string& content) {
-  if (content.size() < 84) return false;
-  const std::uint64_t facets = from_bytes<std::uint32_t>(content.data() + 80, std::endian::little);
-  return facets > 0 && content.size() == 84 + 50 * facets;
 }
 
 /// What the content is, if it says so beyond doubt.

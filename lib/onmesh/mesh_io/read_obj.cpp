@@ -10,6 +10,7 @@
 
 #include "onmesh/base/error.h"
 #include "onmesh/base/file_io.h"
+#include "onmesh/base/text.h"
 #include "onmesh/base/text_scan.h"
 #include "onmesh/mesh_io/find_texture.h"
 #include "onmesh/mesh_io/polygon_mesh.h"
@@ -17,12 +18,6 @@
 namespace onmesh {
 namespace fs = std::filesystem;
 namespace {
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
 
 /// The file name behind the options of a `map_Kd` line; options that take up to three numbers end
 /// at the first token that is none, but never take the line's last token.
@@ -38,7 +33,7 @@ std::string_view texture_name(std::string_view line) {
   };
   while (line.starts_with('-')) {
     auto [option, rest] = split(line);
-    const auto known = arguments.find(lower(option));
+    const auto known = arguments.find(lower_case(option));
     if (known == arguments.end() || rest.empty()) break;  // a name that starts with a dash
     const bool optional = known->second == 3;
     for (int i = 0; i < known->second; ++i) {
@@ -124,11 +119,13 @@ class ObjReader {
     if (error == std::errc::invalid_argument || (last != end && *last != '/')) {
       scan_.fail(std::string("face corner is not a number: ") + quote(text));
     }
-    text.remove_prefix(static_cast<std::size_t>(last - begin));
-    if (value == 0) scan_.fail(std::string(what) + " index 0 (indices start at 1)");
+    const std::string_view number = text.substr(0, static_cast<std::size_t>(last - begin));
+    text.remove_prefix(number.size());
+    if (error == std::errc() && value == 0)
+      scan_.fail(std::string(what) + " index 0 (indices start at 1)");
     const long long index = value < 0 ? static_cast<long long>(count) + value : value - 1;
     if (error != std::errc() || index < 0 || index >= kNone) {
-      scan_.fail(std::string(what) + " index " + std::to_string(value) + " is out of range (" +
+      scan_.fail(std::string(what) + " index " + std::string(number) + " is out of range (" +
                  std::to_string(count) + " so far)");
     }
     if (index >= static_cast<long long>(count)) {
@@ -207,7 +204,7 @@ class ObjReader {
     const fs::path folder = path.parent_path();
     Material* current = nullptr;
     for (; !scan.at_end(); scan.next_line()) {
-      const std::string keyword = lower(scan.token());
+      const std::string keyword = lower_case(scan.token());
       if (keyword == "newmtl") {
         const auto used = material_by_name_.find(std::string(scan.rest_of_line()));
         current = used == material_by_name_.end() ? nullptr : &out_.mesh.materials[used->second];

@@ -28,10 +28,7 @@ bool is_text(const std::string& content) {
   const std::size_t begin = content.find_first_not_of(" \t\r\n");
   if (begin == std::string::npos || !equals(std::string_view(content).substr(begin, 5), "solid"))
     return false;
-  if (content.size() < kHeaderSize) return true;
-  const std::uint64_t facets = from_bytes<std::uint32_t>(content.data() + 80, std::endian::little);
-  if (content.size() == kHeaderSize + kFacetSize * facets) return false;
-  return content.find('\0') == std::string::npos;
+  return !is_binary_stl(content) && content.find('\0') == std::string::npos;
 }
 
 void add_facet(PolygonMesh& out, const std::array<Vec3, 3>& corners) {
@@ -109,6 +106,12 @@ void read_binary(const std::string& content, const std::string& file, PolygonMes
 }
 
 }  // namespace
+
+bool is_binary_stl(const std::string& content) {
+  if (content.size() < kHeaderSize) return false;
+  const std::uint64_t facets = from_bytes<std::uint32_t>(content.data() + 80, std::endian::little);
+  return facets > 0 && content.size() == kHeaderSize + kFacetSize * facets;
+}
 
 TriangleMesh read_stl(const std::filesystem::path& path, const std::string& content,
                       std::vector<std::string>* warnings) {

@@ -9,6 +9,9 @@
 
 namespace onmesh {
 
+/// Whether the content has the size of a binary STL with as many facets as it says, and any.
+bool is_binary_stl(const std::string& content);
+
 /// Read an STL file, text or binary. Its triangles share no vertices: weld() joins them.
 /// \param path of the file, for messages
 /// \param content the whole of it

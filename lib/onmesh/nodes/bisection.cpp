@@ -4,8 +4,8 @@
 #include <numbers>
 #include <string>
 
-#include "onmesh/base/error.h"
 #include "onmesh/nodes/sizing_field.h"
+#include "onmesh/nodes/too_many_nodes.h"
 
 namespace onmesh {
 namespace {
@@ -47,11 +47,11 @@ class Bisection {
     }
   }
 
-  void run(Index enough) {
+  void run() {
     // Faces that splitting appends come later in the same pass; those that keep their number are
     // looked at until they are small enough.
     for (Index f = 0; f < faces_.size(); ++f) {
-      while (too_large(f) && nodes_.size() < enough) split(longest_edge_on_path(f));
+      while (too_large(f)) split(longest_edge_on_path(f));
     }
   }
 
@@ -150,7 +150,10 @@ class Bisection {
   bool too_large(Index f) const {
     const auto& n = faces_[f].nodes;
     const double wanted = (wanted_[n[0]] + wanted_[n[1]] + wanted_[n[2]]) / 3;
-    return edges_[longest_edge(f)].length > kLongestPerSpacing * wanted;
+    // Faces of any shape will do here, so the spacing need not grow up to what is of use.
+    const double useful =
+        options_.least_useful.empty() ? 0 : options_.least_useful[faces_[f].input];
+    return edges_[longest_edge(f)].length > kLongestPerSpacing * std::max(wanted, useful);
   }
 
   // From face to face over longest edges, to one that is the longest of all its faces.
@@ -170,8 +173,8 @@ class Bisection {
 
   Index add_node(Index edge) {
     if (nodes_.size() >= options_.max_nodes) {
-      throw InputError("the node spacing would need more than " +
-                       std::to_string(options_.max_nodes) + " nodes");
+      throw TooManyNodes("the node spacing would need more than " +
+                         std::to_string(options_.max_nodes) + " nodes");
     }
     const auto [a, b] = edges_[edge].ends;
     const double half = edges_[edge].length / 2;
@@ -240,10 +243,10 @@ class Bisection {
 }  // namespace
 
 NodeSurface refine_by_bisection(const TriangleMesh& mesh, const RefineOptions& options,
-                                RefineReport* report, Index enough) {
-  check_spacing(options);
+                                RefineReport* report) {
+  check_refine_options(mesh, options);
   Bisection bisection(mesh, options);
-  bisection.run(enough);
+  bisection.run();
   NodeSurface surface = bisection.surface();
   if (report != nullptr) {
     *report = {};

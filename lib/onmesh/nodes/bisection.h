@@ -20,11 +20,10 @@ namespace onmesh {
 /// one-sided or inconsistently wound parts, faces without area. Input vertices stay nodes with
 /// their indices. The time is linear in the nodes made. RefineOptions::min_angle_degrees has no
 /// meaning here; RefineReport::flips is 0.
-/// \throw UsageError if the spacing is not positive and finite
-/// \param enough so many nodes end the refinement, whatever is still too large: beside lengths of
-///   1 : 10^16 rounding would let it go on
-/// \throw InputError if more than options.max_nodes would be needed
+/// \throw OptionError for options outside their domain
+/// \throw TooManyNodes if more than options.max_nodes would be needed; beside lengths of 1 : 10^16
+///   rounding can let it go on
 NodeSurface refine_by_bisection(const TriangleMesh& mesh, const RefineOptions& options,
-                                RefineReport* report = nullptr, Index enough = kNone);
+                                RefineReport* report = nullptr);
 
 }  // namespace onmesh

@@ -6,9 +6,11 @@
 #include <numbers>
 #include <string>
 
-#include "onmesh/base/error.h"
+#include "onmesh/base/plane.h"
+#include "onmesh/base/triangle.h"
 #include "onmesh/nodes/bad_faces.h"
 #include "onmesh/nodes/sizing_field.h"
+#include "onmesh/nodes/too_many_nodes.h"
 
 namespace onmesh {
 namespace {
@@ -174,9 +176,9 @@ class Refiner {
       for (Index k = 0; k < 3; ++k) {
         if (k == entry) continue;
         const Vec2 side = at[(k + 1) % 3] - at[k], to = from - at[k];
-        const double closing = -(side.x() * way.y() - side.y() * way.x());
+        const double closing = -cross(side, way);
         if (!(closing > 0)) continue;
-        const double reach = (side.x() * to.y() - side.y() * to.x()) / closing;
+        const double reach = cross(side, to) / closing;
         if (reach < nearest) {
           nearest = reach - kSame;
           leave = k;
@@ -203,7 +205,7 @@ class Refiner {
       return kNone;
     }
     const std::array<Vec2, 3> at = e.layout(p.face);
-    const Vec2 x = at[0] * p.barycentric[0] + at[1] * p.barycentric[1] + at[2] * p.barycentric[2];
+    const Vec2 x = interpolate(at, p.barycentric);
     for (Index k = 0; k < 3; ++k) {
       if (e.twin[3 * p.face + k] == kNone &&
           (at[k] - x).dot(at[(k + 1) % 3] - x) <
@@ -238,7 +240,7 @@ class Refiner {
     const Index g = point.face;
     Vec3 b = point.barycentric;
     const std::array<Vec2, 3> at = e.layout(g);
-    const Vec2 x = at[0] * b[0] + at[1] * b[1] + at[2] * b[2];
+    const Vec2 x = interpolate(at, b);
     double spacing = std::numeric_limits<double>::infinity();
     for (Index k = 0; k < 3; ++k) {
       spacing = std::min(spacing, near_[e.tail[3 * g + k]] + options_.growth * (x - at[k]).norm());

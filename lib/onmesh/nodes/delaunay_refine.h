@@ -3,18 +3,12 @@
 
 #include <vector>
 
-#include "onmesh/base/error.h"
 #include "onmesh/nodes/cut_edges.h"
 #include "onmesh/nodes/intrinsic_triangulation.h"
 #include "onmesh/nodes/refine.h"
 #include "onmesh/nodes/sizing_field.h"
 
 namespace onmesh {
-
-/// Refinement would exceed options.max_nodes.
-struct TooManyNodes : InputError {
-  using InputError::InputError;
-};
 
 /// Chew's second algorithm (Chew, Guaranteed-quality mesh generation for curved surfaces, 1993) on
 /// an intrinsic triangulation (Sharp, Soliman & Crane 2019, section 4.2): flip to Delaunay, then

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "onmesh/base/plane.h"
+#include "onmesh/base/triangle.h"
 
 namespace onmesh {
 namespace {
@@ -123,9 +124,7 @@ InputSurface::Trace InputSurface::trace(Index vertex, double direction, double d
 
 InputSurface::Trace InputSurface::trace(const SurfacePoint& from, const Vec2& heading,
                                         double distance) const {
-  const auto& corner = layout_[from.face];
-  const Vec2 at = corner[0] * from.barycentric[0] + corner[1] * from.barycentric[1] +
-                  corner[2] * from.barycentric[2];
+  const Vec2 at = interpolate(layout_[from.face], from.barycentric);
   return walk_on({from.face, at, heading}, distance);
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "onmesh/base/plane.h"
+#include "onmesh/base/triangle.h"
 
 namespace onmesh {
 namespace {
@@ -143,8 +144,7 @@ InputSurface::Trace IntrinsicTriangulation::trace(Index node, double direction,
 IntrinsicTriangulation::Walk IntrinsicTriangulation::walk_to(Index f,
                                                              const Vec3& barycentric) const {
   const std::array<Vec2, 3> corner = edges_.layout(f);
-  const Vec2 at =
-      corner[0] * barycentric[0] + corner[1] * barycentric[1] + corner[2] * barycentric[2];
+  const Vec2 at = interpolate(corner, barycentric);
   Walk walk;
   for (std::size_t k = 0; k < 3; ++k) walk.distance[k] = (at - corner[k]).norm();
   walk.corner = static_cast<Index>(std::min_element(walk.distance.begin(), walk.distance.end()) -

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "onmesh/base/plane.h"
+#include "onmesh/base/triangle.h"
 
 namespace onmesh {
 namespace {
@@ -118,8 +119,7 @@ class Layouter {
         if (!known || (input_[k] - laid_out).norm() < (*known - laid_out).norm()) known = input_[k];
       }
     } else if (const SurfacePoint& p = t_.location(node); p.face == face_) {
-      known = input_[0] * p.barycentric[0] + input_[1] * p.barycentric[1] +
-              input_[2] * p.barycentric[2];
+      known = interpolate(input_, p.barycentric);
     }
     if (!known) return laid_out;
     const double off = (*known - laid_out).norm();

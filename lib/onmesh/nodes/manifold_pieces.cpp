@@ -187,7 +187,7 @@ void turn_back(const std::vector<bool>& turned, NodeSurface& surface) {
 
 NodeSurface refine_in_pieces(const TriangleMesh& mesh, const RefineOptions& options,
                              RefineReport* report) {
-  check_spacing(options);
+  check_refine_options(mesh, options);
   const Index vertices = Index(mesh.positions.size());
   ManifoldPieces pieces = Cutter(mesh).run();
   const std::vector<double> spacing = wanted_spacing(mesh, EdgeTable(mesh), options);

@@ -13,7 +13,7 @@ namespace onmesh {
 ///
 /// Works on any mesh without repeated vertices in a face. Input vertices stay nodes with their
 /// indices.
-/// \throw UsageError if the spacing is not positive and finite
+/// \throw OptionError for options outside their domain
 /// \throw InputError if more than options.max_nodes would be needed
 NodeSurface refine_in_pieces(const TriangleMesh& mesh, const RefineOptions& options,
                              RefineReport* report = nullptr);

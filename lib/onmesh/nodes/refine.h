@@ -40,12 +40,14 @@ struct RefineOptions {
   /// See `needed`, >= 0.
   double reach = 0;
   /// Per face: no closer spacing is of use there but where distances bend. Away from its corners
-  /// the spacing grows up to this, if it is larger than `spacing`; so stretched faces have no more
-  /// nodes than what they carry can tell apart. Empty = 0 everywhere.
+  /// the spacing grows up to this, if it is larger than `spacing` (under bisection it is this at
+  /// once); so stretched faces have no more nodes than what they carry can tell apart. Empty = 0
+  /// everywhere.
   std::vector<double> least_useful;
-  /// Where Delaunay refinement makes more, bisection is tried instead, which ends there; 0 = as
-  /// many as max_nodes. Strips and needles can make it go on and on.
-  Index max_delaunay_nodes = 0;
+  /// Where Delaunay refinement makes more, bisection is tried instead, with ever larger spacings
+  /// until it does not, either. Strips and needles can make it go on and on. 0 = as many as
+  /// max_nodes.
+  Index enough_nodes = 0;
   /// Stop with an InputError beyond so many.
   Index max_nodes = 200'000'000;
 };
@@ -59,13 +61,14 @@ struct RefineReport {
   Index insertions = 0;               ///< of nodes
   double smallest_angle_degrees = 0;  ///< intrinsic: over faces without a vertex that forces it
   bool bisected = false;              ///< by bisection: asked for, or because Delaunay failed
+  double coarser = 1;  ///< spacings are so many times those asked for, to keep to enough_nodes
 };
 
 /// Intrinsic Delaunay refinement of a manifold mesh (Sharp, Soliman & Crane, Navigating Intrinsic
 /// Triangulations, 2019, section 4.2; Chew, Guaranteed-quality mesh generation for curved surfaces,
 /// 1993). Input vertices stay nodes, with the same indices.
 /// \pre mesh is welded and went through clean()
-/// \throw UsageError if the spacing is not positive and finite
+/// \throw OptionError for options outside their domain
 /// \throw InputError if the mesh is not manifold and consistently wound, or if more than
 ///   options.max_nodes would be needed
 NodeSurface refine_manifold(const TriangleMesh& mesh, const RefineOptions& options,
@@ -74,10 +77,11 @@ NodeSurface refine_manifold(const TriangleMesh& mesh, const RefineOptions& optio
 /// The refinement for any mesh as clean() leaves it: that of refine_manifold(), piece by piece if
 /// the mesh is not manifold. Longest-edge bisection inside the input's faces with
 /// options.flat_faces, and where Delaunay refinement fails on faces so thin that it needs too many
-/// nodes, or that rounding leaves no place for them between the nodes. Input vertices stay nodes,
+/// nodes, or that rounding leaves no place for them between the nodes, or that node faces wind
+/// around them again and again. Input vertices stay nodes,
 /// with the same indices.
 /// \param cleaning what clean() reported of this mesh
-/// \throw UsageError if the spacing is not positive and finite
+/// \throw OptionError for options outside their domain
 /// \throw InputError if more than options.max_nodes would be needed
 NodeSurface refine(const TriangleMesh& mesh, const CleanReport& cleaning,
                    const RefineOptions& options, RefineReport* report = nullptr);

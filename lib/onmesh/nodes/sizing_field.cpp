@@ -6,9 +6,8 @@
 #include <numbers>
 #include <queue>
 
-#include "onmesh/mesh/vertex_fans.h"
-
 #include "onmesh/base/error.h"
+#include "onmesh/mesh/vertex_fans.h"
 
 namespace onmesh {
 namespace {
@@ -206,10 +205,26 @@ void limit_growth(const TriangleMesh& mesh, const EdgeTable& edges, double flat,
 
 }  // namespace
 
-void check_spacing(const RefineOptions& options) {
-  if (!(options.spacing > 0) || !std::isfinite(options.spacing)) {
-    throw UsageError("the node spacing must be positive and finite");
-  }
+void check_refine_options(const TriangleMesh& mesh, const RefineOptions& options) {
+  const auto require = [](bool holds, const char* option, const char* problem) {
+    if (!holds) throw OptionError(option, problem);
+  };
+  const auto in = [](double x, double low, double high) { return x >= low && x <= high; };
+  constexpr double kHuge = std::numeric_limits<double>::max();
+  require(options.spacing > 0 && options.spacing <= kHuge, "spacing",
+          "must be positive and finite");
+  require(in(options.curved, 0, options.spacing), "curved", "must be between 0 and spacing");
+  require(in(options.finest, 0, options.spacing), "finest", "must be between 0 and spacing");
+  require(in(options.flatness, 0, kHuge), "flatness", "must be finite and not negative");
+  require(in(options.spread, 0, kHuge), "spread", "must be finite and not negative");
+  require(in(options.sharpness, 0, kHuge), "sharpness", "must be finite and not negative");
+  require(options.growth > 0 && options.growth <= kHuge, "growth", "must be positive and finite");
+  require(in(options.min_angle_degrees, 0, 30), "min_angle_degrees", "must be between 0 and 30");
+  require(in(options.reach, 0, kHuge), "reach", "must be finite and not negative");
+  const auto per_face = [&](std::size_t size) { return size == 0 || size == mesh.faces.size(); };
+  require(per_face(options.needed.size()), "needed", "one entry per face of the mesh is needed");
+  require(per_face(options.least_useful.size()), "least_useful",
+          "one entry per face of the mesh is needed");
 }
 
 double largest_spacing(const RefineOptions& options, const SurfacePoint& point) {
@@ -233,9 +248,6 @@ Remoteness::Remoteness(const TriangleMesh& mesh, const RefineOptions& options)
     : mesh_(mesh), options_(options) {
   const std::vector<bool>& needed = options.needed;
   if (needed.empty()) return;
-  if (needed.size() != mesh.faces.size()) {
-    throw UsageError("needed: one entry per face of the mesh is wanted");
-  }
   if (std::find(needed.begin(), needed.end(), false) == needed.end()) return;
   needed_.positions = mesh.positions;
   bool has_area = false;

@@ -11,8 +11,8 @@
 
 namespace onmesh {
 
-/// \throw UsageError if options.spacing is not positive and finite
-void check_spacing(const RefineOptions& options);
+/// \throw OptionError if a number is outside its domain, or an array has not one entry per face
+void check_refine_options(const TriangleMesh& mesh, const RefineOptions& options);
 
 /// The largest spacing that is of use at a point: options.spacing, or what options.least_useful has
 /// for its face.
@@ -38,7 +38,6 @@ std::vector<double> wanted_spacing(const TriangleMesh& mesh, const EdgeTable& ed
 class Remoteness {
  public:
   /// \pre the mesh and the options outlive this
-  /// \throw UsageError if options.needed has not one entry per face, or none
   Remoteness(const TriangleMesh& mesh, const RefineOptions& options);
 
   /// \return mesh units: 0 within options.reach of a face that is needed, and then growing by

@@ -52,7 +52,7 @@ SampledFaces choose_faces(const TriangleMesh& mesh, const std::vector<bool>& wan
   SampledFaces chosen;
   for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
     if (!wanted.empty() && !wanted[f]) continue;
-    if (!(mesh.face_area(f) > 0)) continue;
+    if (mesh.is_degenerate(f)) continue;
     chosen.faces.push_back(f);
     const auto t = mesh.corners(f);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -116,7 +116,7 @@ class Sampler {
   void fill(const CellList& list, double share);
   double turn(const FaceCell& cell, std::uint64_t round) const;
   void report(double done) const {
-    if (progress_) progress_("sample", done);
+    if (progress_) progress_("samples", done);
   }
 
   const TriangleMesh& mesh_;

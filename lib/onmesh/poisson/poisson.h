@@ -32,7 +32,7 @@ struct PoissonOptions {
 /// point of the sampled surface has a sample it conflicts with, up to 1e-3 of the spacing. Same
 /// options, same samples, on any machine and thread count. On a plane there are about 0.7 /
 /// spacing^2 samples per unit of area.
-/// \param progress told of "sample"
+/// \param progress told of "samples"
 /// \pre mesh is welded
 /// \throw UsageError if the spacing is not a positive number
 /// \throw InputError if no face to sample has area, or if the spacing would need more than 2^28
@@ -56,7 +56,7 @@ struct GradedSamples {
 /// about 2.8 samples per texel, on others more by the ratio of their sides, up to 16; `spacing` of
 /// the options is not used.
 /// \param map of the mesh
-/// \param progress told of "sample"
+/// \param progress told of "samples"
 /// \pre mesh is welded
 /// \throw InputError if no texel lies on the surface, no face to sample has area, or more than
 ///   2^28 samples would be needed

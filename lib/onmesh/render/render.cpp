@@ -33,6 +33,9 @@ void check(const TriangleMesh& mesh, const RenderColour& colour, const RenderOpt
     throw UsageError("view: zoom must be in (0, 1000]");
   if (!within(options.supersampling, 1, 8))
     throw UsageError("view: supersampling must be between 1 and 8");
+  // Products of coordinates in 256ths of a pixel must fit into 64 bits.
+  if (options.zoom * std::max(options.width, options.height) * options.supersampling > 4e6)
+    throw UsageError("view: zoom times pixels times supersampling must be at most 4,000,000");
   if (!options.up.allFinite() || options.up.norm() == 0)
     throw UsageError("view: up must be a direction");
   if (mesh.faces.empty()) throw InputError("view: the mesh has no faces");

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "onmesh/atlas/claim_lookup.h"
+#include "onmesh/base/face_error.h"
 #include "onmesh/samples/make_sample.h"
 
 namespace onmesh {
@@ -42,6 +43,14 @@ Samples sort_into_faces(std::vector<Sample> located, const std::vector<Index>& f
   return out;
 }
 
+NodePoint locate(const Overlay& overlay, const SurfacePoint& point) {
+  const NodePoint at = overlay.locate(point);
+  if (at.face == kNone) {
+    throw FaceError<NumericError>(point.face, "it is too thin to be laid out between the nodes");
+  }
+  return at;
+}
+
 }  // namespace
 
 Samples point_samples(const TriangleMesh& mesh, const TexelMap& map, const NodeSurface& surface,
@@ -49,7 +58,7 @@ Samples point_samples(const TriangleMesh& mesh, const TexelMap& map, const NodeS
   std::vector<Sample> located(points.size());
   std::vector<Index> face_of(points.size());
   oneapi::tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-    const NodePoint at = surface.overlay.locate(points[i]);
+    const NodePoint at = locate(surface.overlay, points[i]);
     face_of[i] = at.face;
     located[i] = make_sample(map.texel_at(mesh.uv(points[i])), at.barycentric, area);
   });
@@ -82,7 +91,7 @@ Samples sharing_samples(const TriangleMesh& mesh, const TexelMap& map, const Nod
   std::vector<Index> face_of(kept.size());
   oneapi::tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t i) {
     const Index claim = claim_of[i];
-    const NodePoint at = surface.overlay.locate(kept[i]);
+    const NodePoint at = locate(surface.overlay, kept[i]);
     face_of[i] = at.face;
     located[i] =
         make_sample(map.texel(map.claims[claim]), at.barycentric, areas[claim] / sharers[claim]);

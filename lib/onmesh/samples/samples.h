@@ -32,6 +32,7 @@ Samples texel_samples(const TexelMap& map, const NodeSurface& surface);
 
 /// Equal-area samples at surface points, with the colour of the texel whose square holds their UV.
 /// \param area what each sample stands for, mesh units squared
+/// \throw as texel_samples(), at a face with points
 Samples point_samples(const TriangleMesh& mesh, const TexelMap& map, const NodeSurface& surface,
                       const std::vector<SurfacePoint>& points, double area);
 
@@ -39,6 +40,7 @@ Samples point_samples(const TriangleMesh& mesh, const TexelMap& map, const NodeS
 ///
 /// Each stands for its texel's area, as texel_samples() has it, divided by the number of points
 /// there. Points that hit no texel of their own chart carry padding colour and are left out.
+/// \throw as texel_samples(), at a face with points
 Samples sharing_samples(const TriangleMesh& mesh, const TexelMap& map, const NodeSurface& surface,
                         const std::vector<SurfacePoint>& points);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "onmesh/base/error.h"
 #include "onmesh/base/exponent_unit.h"
 #include "onmesh/kernel/direct/record_writer.h"
 #include "onmesh/kernel/direct/target_order.h"
@@ -67,6 +68,9 @@ Total count_samples(const Patch& patch, const Samples& sources,
 void make_room(std::size_t samples, PatchRecords& records) {
   records.faces.clear();
   const std::size_t floats = samples * records.stride();
+  if (floats > kNone) {
+    throw InputError("too many samples lie within the radius of one place: choose a smaller one");
+  }
   if (records.records.size() < floats) records.records.resize(floats);
   for (std::vector<float>* array : {&records.b1, &records.b2, &records.variance})
     if (array->size() < samples + kLanes) array->resize(samples + kLanes);
