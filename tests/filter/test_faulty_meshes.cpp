@@ -124,7 +124,7 @@ void check_faults(FilterOptions options, double least = 60) {
   const Length sigma = options.sigma_spatial;
   const TriangleMesh sphere = make_sphere(2), sheet = make_gentle_sheet(12);
   for (const TriangleMesh* const clean : {&sphere, &sheet}) {
-    const Image texture = noisy_checker(96, 96);
+    const Image texture = noisy_checker(64, 64);
     // In mesh units: the median of the texels may change with the fault.
     options.sigma_spatial = sigma;
     options.sigma_spatial = {plan_filter(*clean, texture, options).sigma_spatial,
