@@ -56,7 +56,8 @@ struct Bounds {
   double psnr = 0;  ///< dB, at least
 };
 
-struct Case {
+/// A kind of filter and a way to do its sums, with what must hold for it.
+struct Evaluation {
   std::string name;
   FilterKind kind;
   FilterMethod method;
@@ -68,9 +69,9 @@ struct Case {
 /// The sums on nodes come within their tolerance of the direct ones, and patches that are cut
 /// elsewhere may be summed on nodes halved otherwise or with other colours: nodes that stay do not
 /// make results equal.
-std::vector<Case> direct_and_nodes(const Bounds& gaussian, const Bounds& bilateral,
-                                   const Bounds& same_nodes, const Bounds& gaussian_on_nodes,
-                                   const Bounds& bilateral_on_nodes) {
+std::vector<Evaluation> direct_and_nodes(const Bounds& gaussian, const Bounds& bilateral,
+                                         const Bounds& same_nodes, const Bounds& gaussian_on_nodes,
+                                         const Bounds& bilateral_on_nodes) {
   constexpr auto kUnfold = DistanceMethod::unfold;
   return {
       {"Gaussian", FilterKind::gaussian, FilterMethod::direct, kUnfold, gaussian, same_nodes},
@@ -81,7 +82,7 @@ std::vector<Case> direct_and_nodes(const Bounds& gaussian, const Bounds& bilater
        bilateral_on_nodes, bilateral_on_nodes}};
 }
 
-std::vector<Case> heat_and_cloud(const Bounds& gaussian_heat, const Bounds& bilateral_cloud) {
+std::vector<Evaluation> heat_and_cloud(const Bounds& gaussian_heat, const Bounds& bilateral_cloud) {
   return {{"Gaussian by heat", FilterKind::gaussian, FilterMethod::direct, DistanceMethod::heat,
            gaussian_heat, gaussian_heat},
           {"bilateral by cloud", FilterKind::bilateral, FilterMethod::direct, DistanceMethod::cloud,
@@ -89,16 +90,16 @@ std::vector<Case> heat_and_cloud(const Bounds& gaussian_heat, const Bounds& bila
 }
 
 /// The filter on the surface given in every way, compared with that on the mesh as it is.
-void check_changes(const TriangleMesh& mesh, double sigma, const std::vector<Case>& cases) {
+void check_changes(const TriangleMesh& mesh, double sigma, const std::vector<Evaluation>& cases) {
   const Image texture = noisy_checker(128, 128);
-  for (const Case& c : cases) {
+  for (const Evaluation& c : cases) {
     FilterOptions options;
     options.kind = c.kind;
     options.method = c.method;
     options.distance = c.distance;
     options.sigma_spatial = {sigma, Length::Unit::texel};
     options.sigma_range = 0.2;
-    options.gutter = 0;
+    options.gutter = 0;  // but for texels that a chart touches
     const Image expected = filter(mesh, texture, options);
     for (const Change& change : kChanges) {
       TriangleMesh given = mesh;
@@ -126,13 +127,13 @@ TEST_CASE("a bumpy surface filters the same however it is given", "[invariance][
 TEST_CASE("a torus filters the same however it is given", "[invariance][slow]") {
   check_changes(
       make_torus(16, 8), 6,
-      direct_and_nodes({6.2e-3, 64}, {4.1e-3, 72}, {2e-5, 135}, {1.1e-2, 61}, {1.9e-2, 63}));
+      direct_and_nodes({6.2e-3, 64}, {4.1e-3, 72}, {2e-5, 139}, {1.1e-2, 61}, {1.9e-2, 63}));
 }
 
 TEST_CASE("a cube filters the same however it is given", "[invariance][slow]") {
   check_changes(
       make_cube(1), 6,
-      direct_and_nodes({1.3e-2, 70}, {5.2e-3, 83}, {5e-5, 132}, {1.3e-2, 60}, {1.5e-2, 65}));
+      direct_and_nodes({1.3e-2, 70}, {5.2e-3, 83}, {5.2e-5, 132}, {1.3e-2, 60}, {1.5e-2, 65}));
 }
 
 TEST_CASE("a folded sheet filters the same however it is given", "[invariance][slow]") {
@@ -142,8 +143,9 @@ TEST_CASE("a folded sheet filters the same however it is given", "[invariance][s
 
 TEST_CASE("a patch of a saddle filters the same however it is given", "[invariance][slow]") {
   // On its regular grid rounding decides where nodes go.
-  check_changes(make_saddle(8), 6,
-                direct_and_nodes({4e-4, 91}, {5.8e-4, 89}, {4e-4, 93}, {1.9e-2, 52}, {2.6e-2, 54}));
+  check_changes(
+      make_saddle(8), 6,
+      direct_and_nodes({4e-4, 91}, {5.8e-4, 89}, {3.5e-4, 93}, {1.9e-2, 52}, {2.5e-2, 56}));
 }
 
 TEST_CASE("a Moebius strip filters the same however it is given", "[invariance]") {
