@@ -11,6 +11,8 @@
 #include "onmesh/procedural/shapes.h"
 #include "support/atlas_meshes.h"
 #include "support/cut_meshes.h"
+#include "support/images.h"
+#include "support/rewritten_meshes.h"
 
 using namespace onmesh;
 
@@ -89,6 +91,26 @@ TEST_CASE("a piece cut out of a flat sheet leaves no seam in a linear texture", 
     const SeamError error = seam_error(mesh, map, image);
     CHECK(error.edges == 10);
     CHECK(error.max < 2e-6);
+  }
+}
+
+TEST_CASE("the gutter is the same however the mesh is wound, numbered and divided", "[gutter]") {
+  const auto waves = [](const Vec3& p) { return std::sin(11 * p.x() + 17 * p.y() - 14 * p.z()); };
+  // Beyond the corners of charts lie cones, where the two ways around lead to different places.
+  for (const TriangleMesh& mesh : {turned_cube(1), turned_cube(3), make_blob(1, 1)}) {
+    const int size = 123;
+    Image image = paint(mesh, make_texel_map(mesh, size, size), waves, 0);
+    const Image before = image;
+    fill_gutter(mesh, make_texel_map(mesh, size, size), 3, image);
+    for (const auto& rewrite : std::vector<void (*)(TriangleMesh&)>{
+             reverse_winding, split_at_barycentres, [](TriangleMesh& m) { turn_corners(m, 1); },
+             [](TriangleMesh& m) { renumber_vertices(m, 2); }}) {
+      TriangleMesh same = mesh;
+      rewrite(same);
+      Image filled = before;
+      fill_gutter(same, make_texel_map(same, size, size), 3, filled);
+      CHECK(largest_difference(filled, image) < 1e-5);
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 #include "onmesh/procedural/shapes.h"
 #include "support/cut_meshes.h"
 #include "support/mesh_parts.h"
+#include "support/rewritten_meshes.h"
 #include "support/small_meshes.h"
 
 using namespace onmesh;
@@ -87,4 +88,29 @@ TEST_CASE("where several faces meet the walk takes the one that goes on most str
   CHECK(walk.across(2, 0) == 0);
   CHECK(walk.across(1, 0) == 0);  // folded by 90 degrees rather than 96
   CHECK(walk.across(0, 1) == kNone);
+}
+
+TEST_CASE("from a corner the way over an edge leads around that side", "[unfolded_walk]") {
+  // Four faces of 60 degrees each around a tip. Straight away from face 0 lies 180 degrees from its
+  // middle: the last of the three other faces, on either way around.
+  TriangleMesh mesh = bare_mesh({{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
+                                {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}});
+  for (const bool reversed : {false, true}) {
+    if (reversed) reverse_winding(mesh);
+    const UnfoldedWalk walk(mesh, make_texel_map(mesh, 4, 4));
+    const LaidFace start = walk.lay_out(0);
+    const Vec2 tip = start.corners[0];
+    const Vec2 away = tip - (start.corners[1] + start.corners[2]) / 2;
+    for (const int k : {0, 2}) {
+      // Over the edge to vertex 1 lies face 3, over that to vertex 2 face 1.
+      const bool to_vertex_1 = (k == 0) != reversed;
+      const Vec2 side = start.corners[k == 0 ? 1 : 2] - start.corners[k == 0 ? 2 : 1];
+      const WalkEnd beside = walk.over_edge(start, k, tip, tip - 0.1 * away + 0.3 * side);
+      CHECK(beside.arrived);
+      CHECK(beside.laid.face == (to_vertex_1 ? 3 : 1));
+      const WalkEnd opposite = walk.over_edge(start, k, tip, tip + 0.2 * away);
+      CHECK(opposite.arrived);
+      CHECK(opposite.laid.face == (to_vertex_1 ? 1 : 3));
+    }
+  }
 }

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <random>
 #include <set>
 
 #include "onmesh/measure/mesh_report.h"
 #include "onmesh/mesh/clean.h"
 #include "onmesh/procedural/shapes.h"
+#include "support/rewritten_meshes.h"
 #include "support/small_meshes.h"
 
 namespace onmesh {
@@ -25,18 +25,6 @@ TriangleMesh two_sided(const TriangleMesh& mesh) {
     add_face(result, {v[0], v[2], v[1]}, {u[0] + shift, u[2] + shift, u[1] + shift});
   }
   return result;
-}
-
-void shuffle_faces(TriangleMesh& mesh, unsigned seed) {
-  std::vector<std::size_t> order(mesh.faces.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::shuffle(order.begin(), order.end(), std::mt19937(seed));
-  TriangleMesh shuffled = mesh;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    shuffled.faces[i] = mesh.faces[order[i]];
-    shuffled.face_uvs[i] = mesh.face_uvs[order[i]];
-  }
-  mesh = shuffled;
 }
 
 TEST_CASE("a two-sided flag becomes two sheets, in whatever order its faces come",

@@ -55,6 +55,7 @@ TriangleMesh turned_cube(Index n) {
         mesh.face_uvs.push_back({at, at + n + 2, at + n + 1});
       }
   }
+  mesh.face_materials.assign(mesh.faces.size(), kNone);
   return mesh;
 }
 

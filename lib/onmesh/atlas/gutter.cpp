@@ -23,6 +23,7 @@ constexpr double kMuchFiner = 1.4;
 /// face is laid out in.
 struct Place {
   LaidFace laid;             ///< the nearest face
+  int edge = 0;              ///< its nearest edge
   Vec2 edge_pixel, centre;   ///< the face's point closest to the texel's centre, and that centre
   Vec2 edge_point, beyond;   ///< the same in the plane, were the face to go on
   Eigen::Matrix3d to_pixel;  ///< from (x, y, 1) in the plane
@@ -74,6 +75,7 @@ Eigen::Matrix3d columns_of(const std::array<Vec2, 3>& corners) {
 Place GutterFill::look_at(const NearestEdge& nearest) const {
   Place place;
   place.laid = walk_.lay_out(nearest.face);
+  place.edge = nearest.edge;
   const std::array<Vec2, 3> pixels = walk_.pixel_corners(nearest.face);
   const auto& plane = place.laid.corners;
   const auto k = std::size_t(nearest.edge), l = (k + 1) % 3;
@@ -90,7 +92,7 @@ Place GutterFill::look_at(const NearestEdge& nearest) const {
 /// other face's plane, or where the surface ends on the way there.
 /// \return false if no texel is near
 bool GutterFill::continue_surface(const Place& place, float* values) const {
-  WalkEnd end = walk_.over_surface(place.laid, place.edge_point, place.beyond);
+  WalkEnd end = walk_.over_edge(place.laid, place.edge, place.edge_point, place.beyond);
   if (map_.chart_of_face[end.laid.face] == kNone) end = {place.laid, place.edge_point, false};
   const Vec2 there =
       interpolate(walk_.pixel_corners(end.laid.face), barycentric_in(end.laid.corners, end.point));
@@ -182,8 +184,9 @@ void GutterFill::fill(Index texel, const NearestEdge& nearest) const {
     return copy_nearest_claim(nearest.face, place.centre, values);
   // The face right across the seam.
   constexpr double kStep = 1e-3;
-  const WalkEnd across = walk_.over_surface(
-      place.laid, place.edge_point, place.edge_point + kStep * (place.beyond - place.edge_point));
+  const WalkEnd across =
+      walk_.over_edge(place.laid, place.edge, place.edge_point,
+                      place.edge_point + kStep * (place.beyond - place.edge_point));
   if (across.laid.face != nearest.face && map_.chart_of_face[across.laid.face] != kNone)
     limit(place, across.laid, values);
 }

@@ -206,6 +206,16 @@ WalkEnd UnfoldedWalk::over_surface(const LaidFace& start, const Vec2& from, cons
   return walk<false>(start, from, to);
 }
 
+WalkEnd UnfoldedWalk::over_edge(const LaidFace& start, int k, const Vec2& from,
+                                const Vec2& to) const {
+  if (!(barycentric_in(start.corners, to)[(k + 2) % 3] < kInside))
+    return over_surface(start, from, to);
+  const WalkEnd end = walk_out<false>(start, k, from, to);
+  if (end.arrived) return end;
+  const WalkEnd other = over_surface(start, from, to);
+  return other.arrived ? other : end;
+}
+
 std::optional<LaidFace> UnfoldedWalk::within_chart(const LaidFace& start, const Vec2& from,
                                                    const Vec2& to) const {
   const WalkEnd end = walk<true>(start, from, to);

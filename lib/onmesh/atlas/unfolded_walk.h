@@ -44,7 +44,12 @@ class UnfoldedWalk {
   /// another face, up to the face that holds `to` or to where the surface ends.
   WalkEnd over_surface(const LaidFace& start, const Vec2& from, const Vec2& to) const;
 
-  /// The same with points in pixels, steering by the UVs and without leaving the chart.
+  /// The same from a point of the face's edge k to one beyond it, over that edge. From a corner
+  /// that is the way around it on this side, whatever else `to` lies beyond; the other way is taken
+  /// only where the surface ends on this one.
+  WalkEnd over_edge(const LaidFace& start, int k, const Vec2& from, const Vec2& to) const;
+
+  /// As over_surface(), with points in pixels, steering by the UVs and without leaving the chart.
   /// \return the face that holds `to`, nothing if the way is barred
   std::optional<LaidFace> within_chart(const LaidFace& start, const Vec2& from,
                                        const Vec2& to) const;

@@ -17,14 +17,13 @@ constexpr double kMostResidual = 0.16;
 constexpr Index kPicked = 64;
 /// So many of the others with the least support are, too, to see whether more should be.
 constexpr std::size_t kLeastSupported = 64;
-/// Support below which targets are summed directly.
-constexpr float kLittleSupport = 8;
 /// Support below which targets may be doubted, and share of the patch's largest.
 constexpr float kDoubtfulSupport = 200, kDoubtfulShare = 0.2F;
 /// Where more than one in so many targets has little support the nodes may be given up.
 constexpr std::size_t kMostUncertain = 16;
-/// An error of an uncertain target that asks for more direct sums, in tolerances.
-constexpr double kFarOff = 16;
+/// An error of an uncertain target that asks for more direct sums: in RMS errors of the patch, and
+/// the least and the most of it in tolerances.
+constexpr double kFarOff = 12, kLeastFarOff = 6, kMostFarOff = 16;
 
 /// Factor of the squared radius within which faces are taken, beyond kRadiusSlack.
 constexpr double kReachSlack = 1 + 1e-4;
@@ -168,7 +167,7 @@ double CheckedKernel::measure(const KernelInput& input, NodeCheck& check) const 
   return std::sqrt(check.squared_error / double(check.checked));
 }
 
-void CheckedKernel::settle_uncertain(const KernelInput& input, DirectKernel& kernel,
+void CheckedKernel::settle_uncertain(const KernelInput& input, DirectKernel& kernel, double far_off,
                                      KernelCounts& counts, NodeCheck& check) {
   const auto channels = std::size_t(input.colours.channels);
   // Where some of the least supported are far off, look at more of them, until the last are not.
@@ -187,7 +186,7 @@ void CheckedKernel::settle_uncertain(const KernelInput& input, DirectKernel& ker
     }
     check.largest_error = std::max(check.largest_error, largest);
     judged = doubtful_.size() - little_supported_;
-    if (largest <= kFarOff * tolerance_ || judged < others) break;
+    if (largest <= far_off || judged < others) break;
   }
   for (Index k = 0; k < is_summed_.size(); ++k) {
     if (!is_summed_[k]) continue;
@@ -228,7 +227,8 @@ bool CheckedKernel::run(const KernelInput& input, DirectKernel& kernel, std::vec
   }
   check.colours = nodes_.evaluate(values_, support_);
   counts = sum_first(input, kernel, check);
-  while (measure(input, check) > tolerance_) {
+  double error = measure(input, check);
+  for (; error > tolerance_; error = measure(input, check)) {
     if (palette + 1 == kPaletteSizes.size() || check.colours < kPaletteSizes[palette]) {
       if (!always_) return false;
       break;
@@ -236,7 +236,9 @@ bool CheckedKernel::run(const KernelInput& input, DirectKernel& kernel, std::vec
     nodes_.choose_palette(kPaletteSizes[++palette]);
     check.colours = nodes_.evaluate(values_, support_);
   }
-  settle_uncertain(input, kernel, counts, check);
+  const double far_off =
+      std::clamp(kFarOff * error, kLeastFarOff * tolerance_, kMostFarOff * tolerance_);
+  settle_uncertain(input, kernel, far_off, counts, check);
   out.swap(values_);
   return true;
 }

@@ -34,7 +34,8 @@ class CheckedKernel {
   /// the patch; the palette grows from 16 colours (more where those are far from the patch's) until
   /// it is within the tolerance, up to 64. Targets with little support (the weights of less than a
   /// few texels) are summed directly; of the others, the 64 with the least (if it is little at all)
-  /// are checked too, and if one is far off, more are summed directly.
+  /// are checked too, and if one is far off, more are summed directly. Support counts less where
+  /// the palette has no colour like the target's.
   /// \param kernel does the direct sums
   /// \param out as DirectKernel::run()
   /// \param counts of the direct sums
@@ -55,8 +56,9 @@ class CheckedKernel {
   /// The direct sums of targets picked at random and, if they are few, of doubtful ones.
   KernelCounts sum_first(const KernelInput& input, DirectKernel& kernel, NodeCheck& check);
   double measure(const KernelInput& input, NodeCheck& check) const;
-  void settle_uncertain(const KernelInput& input, DirectKernel& kernel, KernelCounts& counts,
-                        NodeCheck& check);
+  /// \param far_off an error that asks for more direct sums, value units
+  void settle_uncertain(const KernelInput& input, DirectKernel& kernel, double far_off,
+                        KernelCounts& counts, NodeCheck& check);
 
   NodeKernel nodes_;
   const double radius_;

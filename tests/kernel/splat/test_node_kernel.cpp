@@ -1,6 +1,7 @@
 #include "onmesh/kernel/splat/node_kernel.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -60,4 +61,29 @@ TEST_CASE("nodes that are too coarse for sigma are refused", "[node_kernel]") {
   const FlatPatch flat = make_flat_patch({.spacing = 10});
   CHECK_FALSE(NodeKernel({0.5, 1.25, 0}).load(flat.input()));
   CHECK(NodeKernel({3, 7.5, 0}).load(flat.input()));
+}
+
+TEST_CASE("support counts less where the palette has no colour like the target's",
+          "[node_kernel]") {
+  // Dark and bright halves, and a grey spot that two colours leave out.
+  const double sigma = 6;
+  FlatPatch flat = make_flat_patch({.width = 96, .height = 96, .core = 0.5, .channels = 1});
+  const auto is_grey = [&](Index t) {
+    return (flat.positions[t] - Vec2(48, 48)).cwiseAbs().maxCoeff() < 4;
+  };
+  for (Index t = 0; t < flat.colours.size(); ++t)
+    flat.colours[t] = is_grey(t) ? 0.5F : flat.positions[t].x() < 48 ? 0.0F : 1.0F;
+  NodeKernel kernel({sigma, 2.5 * sigma, 0.2});
+  REQUIRE(kernel.load(flat.input()));
+  std::array<float, 2> most{};
+  std::vector<float> out, support;
+  for (const int colours : {2, 16}) {
+    kernel.choose_palette(colours);
+    kernel.evaluate(out, support);
+    for (std::size_t k = 0; k < support.size(); ++k)
+      if (is_grey(flat.target_texels[k]))
+        most[colours == 16] = std::max(most[colours == 16], support[k]);
+  }
+  CHECK(most[1] > 20);
+  CHECK(most[0] < most[1] / 4);
 }

@@ -11,6 +11,9 @@ namespace onmesh {
 
 struct NodeKernelState;
 
+/// Support (see NodeKernel::evaluate()) below which results are not to be trusted.
+inline constexpr float kLittleSupport = 8;
+
 /// Filters patches one after the other, keeping its buffers. One object per thread.
 ///
 /// Samples are added to the corners of their split face by barycentric weights, the sums blurred by
@@ -38,8 +41,9 @@ class NodeKernel {
   /// Filter all targets in the patch's core faces.
   /// \param out as DirectKernel::run(); targets with a value that is not finite keep theirs
   /// \param support per target in that order: the sum of weights in units of the target's own area
-  ///   (the target's own weight alone is 1); 0 for those that kept their values. Where it is small,
-  ///   few samples look like the target and the result is uncertain.
+  ///   (the target's own weight alone is 1), less where no colour of the palette is like the
+  ///   target's, but not little for that; 0 for those that kept their values. Where it is small,
+  ///   few samples look like the target, or the palette cannot tell, and the result is uncertain.
   /// \return the palette's colours; 0 for the Gaussian filter
   int evaluate(std::vector<float>& out, std::vector<float>& support);
 

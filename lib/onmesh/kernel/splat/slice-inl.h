@@ -17,6 +17,9 @@ namespace onmesh {
 namespace HWY_NAMESPACE {
 namespace {
 
+/// Targets that are more unlike the palette than this are all alike uncertain.
+constexpr float kLeastLikeness = 0.6F;
+
 /// Reads the targets' values from NodeKernelState::blurred.
 class Slice {
  public:
@@ -64,22 +67,26 @@ class Slice {
     for (std::size_t k = 0; k < 3; ++k) rows[k] = s_.blurred.data() + part.corners[k] * s_.row;
     with_range_channels(s_.survey.range_channels, [&](auto channels) HWY_ATTR {
       for (std::size_t i = 0; i < chunk.count; i += hn::Lanes(D())) {
+        V represented = hn::Set(D(), 1);
         if (channels_ == 0) {
           interpolate(chunk, rows, i);
         } else {
-          compare<channels.value>(chunk, i);
+          represented = compare<channels.value>(chunk, i);
           for_plane_groups(s_.survey.planes(), [&](std::size_t plane, auto count) HWY_ATTR {
             read_planes<count.value>(chunk, plane, rows, i);
           });
         }
-        divide(chunk, i);
+        divide(chunk, i, represented);
       }
     });
   }
 
   /// likeness[k][lane] = f(|colour of the sample - c_k|) for samples first, ...
+  /// \return how far their support is to be trusted: the fourth power of the largest likeness,
+  /// whose
+  ///   square is what the nearest colour alone represents of theirs
   template <int kChannels>
-  void compare(const Chunk& chunk, std::size_t first) {
+  V compare(const Chunk& chunk, std::size_t first) {
     const D d;
     const std::size_t channels = kChannels > 0 ? std::size_t(kChannels) : channels_;
     // Not read again after every store.
@@ -87,6 +94,7 @@ class Slice {
     const Chunk::Array* const own = chunk.colours.data();
     const std::size_t padded = s_.palette.padded, size = s_.palette.size;
     float* likeness = likeness_.get();
+    V nearest = hn::Set(d, kLeastLikeness);
     for (std::size_t k = 0; k < size; ++k, likeness += hn::Lanes(d)) {
       V x = hn::Zero(d);
       for (std::size_t c = 0; c < channels; ++c) {
@@ -94,8 +102,12 @@ class Slice {
         const V difference = hn::Sub(hn::LoadU(d, &own[c][first]), colour);
         x = hn::NegMulAdd(difference, difference, x);
       }
-      hn::Store(exp2(d, x), d, likeness);
+      const V like = exp2(d, x);
+      nearest = hn::Max(nearest, like);
+      hn::Store(like, d, likeness);
     }
+    const V square = hn::Mul(nearest, nearest);
+    return hn::Mul(square, square);
   }
 
   /// results[plane][first ...] for kPlanes planes: the rows' values interpolated at each sample,
@@ -135,13 +147,17 @@ class Slice {
   }
 
   /// Turn a vector of sums into supports (0 where the own value is kept) and means.
-  HWY_INLINE void divide(const Chunk& chunk, std::size_t first) {
+  HWY_INLINE void divide(const Chunk& chunk, std::size_t first, V represented) {
     const D d;
     float* const sums = &results_[0][first];
     const V sum = hn::LoadU(d, sums), own = hn::LoadU(d, &chunk.weights[first]);
     const V zero = hn::Zero(d);
     const auto is_filtered = hn::And(hn::Gt(sum, zero), hn::Gt(own, zero));
-    hn::StoreU(hn::IfThenElseZero(is_filtered, hn::Div(sum, own)), d, sums);
+    const V plain = hn::Div(sum, own);
+    // Among those that are not little for being unlike, the order stays.
+    const V not_little = hn::MulAdd(plain, hn::Set(d, 1e-3F), hn::Set(d, kLittleSupport));
+    const V support = hn::Max(hn::Mul(represented, plain), hn::Min(plain, not_little));
+    hn::StoreU(hn::IfThenElseZero(is_filtered, support), d, sums);
     const V inverse = hn::Div(hn::Set(d, 1), hn::Mul(sum, hn::Set(d, s_.survey.colour_scale)));
     for (std::size_t c = 0; c + 1 < results_.size(); ++c) {
       float* const at = &results_[1 + c][first];
