@@ -108,6 +108,8 @@ NodeSurface make_nodes(const RunContext& run, Image& image) {
   RefineOptions refinement = refinement_for(setup, setup.lengths);
   // The plan has an upper bound. Needles and strips can go beyond, by what is nothing to speak of.
   constexpr double kLittle = 20000;
+  refinement.any_shape = run.options.distance == DistanceMethod::automatic ||
+                         run.options.distance == DistanceMethod::unfold;
   refinement.enough_nodes = Index(std::min(1e8, 1.5 * double(setup.mesh_plan.nodes) + kLittle));
   RefineReport refined;
   NodeSurface surface;

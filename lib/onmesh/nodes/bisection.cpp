@@ -150,9 +150,8 @@ class Bisection {
   bool too_large(Index f) const {
     const auto& n = faces_[f].nodes;
     const double wanted = (wanted_[n[0]] + wanted_[n[1]] + wanted_[n[2]]) / 3;
-    // Faces of any shape will do here, so the spacing need not grow up to what is of use.
-    const double useful =
-        options_.least_useful.empty() ? 0 : options_.least_useful[faces_[f].input];
+    const bool at_once = options_.any_shape && !options_.least_useful.empty();
+    const double useful = at_once ? options_.least_useful[faces_[f].input] : 0;
     return edges_[longest_edge(f)].length > kLongestPerSpacing * std::max(wanted, useful);
   }
 

@@ -40,10 +40,12 @@ struct RefineOptions {
   /// See `needed`, >= 0.
   double reach = 0;
   /// Per face: no closer spacing is of use there but where distances bend. Away from its corners
-  /// the spacing grows up to this, if it is larger than `spacing` (under bisection it is this at
-  /// once); so stretched faces have no more nodes than what they carry can tell apart. Empty = 0
-  /// everywhere.
+  /// the spacing grows up to this, if it is larger than `spacing`; so stretched faces have no more
+  /// nodes than what they carry can tell apart. Empty = 0 everywhere.
   std::vector<double> least_useful;
+  /// Faces may have any shape if they must be bisected: the spacing need not grow up to
+  /// `least_useful`, it is that at once. Right for unfolding, not for the heat method.
+  bool any_shape = false;
   /// Where Delaunay refinement makes more, bisection is tried instead, with ever larger spacings
   /// until it does not, either. Strips and needles can make it go on and on. 0 = as many as
   /// max_nodes.
