@@ -23,10 +23,12 @@ constexpr std::uint64_t kMostValues = std::uint64_t(1) << 32;  // 16 GB of float
   throw InputError(path.string() + ": " + why);
 }
 
-/// Library messages come with line breaks and may be empty.
+/// Library messages come with line breaks, hold bytes of the file, and may be empty.
 std::string one_line(std::string text, const std::string& otherwise) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-  std::replace(text.begin(), text.end(), '\n', ' ');
+  for (char& c : text) {
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = ' ';
+  }
+  while (!text.empty() && text.back() == ' ') text.pop_back();
   return text.empty() ? otherwise : text;
 }
 
