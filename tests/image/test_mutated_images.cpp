@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <optional>
+#include <sstream>
 
 #include "onmesh/image/image_io.h"
 #include "support/image_files.h"
@@ -26,18 +27,23 @@ struct Failure {
 /// \return the first that was not read to its end, nothing if all were
 std::optional<Failure> read_mutations(const ImageFolder& folder, const std::string& name,
                                       unsigned first) {
-  const std::string command = "'" + mutation_reader().string() + "' '" + folder.path().string() +
-                              "' '" + name + "' " + std::to_string(first) + " " +
-                              std::to_string(kMutations) + " 2>/dev/null";
-  std::FILE* const output = ::popen(("exec " + command).c_str(), "r");
+  std::ostringstream command;
+  command << "exec " << mutation_reader() << ' ' << folder.path() << ' ' << name << ' ' << first
+          << ' ' << kMutations << " 2>/dev/null";  // paths are put in quotes
+  std::FILE* const output = ::popen(command.str().c_str(), "r");
   REQUIRE(output != nullptr);
   Failure failure{first, {}};
   while (std::fscanf(output, "%u", &failure.number) == 1) {
   }
   const int status = ::pclose(output);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return std::nullopt;
-  failure.how = WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status))
-                                    : "exit code " + std::to_string(WEXITSTATUS(status));
+  std::ostringstream how;
+  if (WIFSIGNALED(status)) {
+    how << "signal " << WTERMSIG(status);
+  } else {
+    how << "exit code " << WEXITSTATUS(status);
+  }
+  failure.how = how.str();
   return failure;
 }
 

@@ -110,9 +110,12 @@ TEST_CASE("a JPEG with a PNG's name is read for what it is", "[read_image]") {
 
 TEST_CASE("files of other formats are refused, whatever else could read them", "[read_image]") {
   const ImageFolder folder;
-  dump(folder / "a.gif", "GIF89a" + std::string(40, '\0'));
-  dump(folder / "a.png", "GIF89a" + std::string(40, '\0'));
-  dump(folder / "a.psd", "8BPS" + std::string(40, '\1'));
+  std::string gif("GIF89a"), psd("8BPS");
+  gif.append(40, '\0');
+  psd.append(40, '\1');
+  dump(folder / "a.gif", gif);
+  dump(folder / "a.png", gif);
+  dump(folder / "a.psd", psd);
   for (const std::string name : {"a.gif", "a.png", "a.psd"}) {
     CHECK_THROWS_WITH(read_image(folder / name), Catch::Contains("not a readable image: not PNG"));
   }
