@@ -66,9 +66,11 @@ double odd_number(Input& input) {
   return input.pick(kNumbers);
 }
 
+/// Atlases of thousands of tiles would be millions of texels: there are none but those that are
+/// refused.
 double odd_uv(Input& input) {
-  static constexpr double kNumbers[] = {0,   1,   0.5, -0.5, 1e-12, 1e-300, 3,         -40,
-                                        1e3, 2e4, 1e6, 1e10, 1e300, kNan,   kInfinity, -kInfinity};
+  static constexpr double kNumbers[] = {0,  1,   0.5, -0.5, 1e-12, 1e-300, 3,         -40,
+                                        20, 2e4, 1e6, 1e10, 1e300, kNan,   kInfinity, -kInfinity};
   return input.pick(kNumbers);
 }
 
