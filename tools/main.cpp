@@ -20,24 +20,11 @@ using namespace onmesh::tools;
 
 enum ExitCode { kUsage = 2, kInput = 3, kFile = 4, kSignal = 128 };
 
-constexpr Subcommand kCommands[] = {
-    {"filter", "filter a texture on the mesh's surface", filter_command, run_filter},
-    {"info", "report what is special or wrong about a mesh and its atlas", info_command, run_info},
-    {"view", "render the textured mesh as a picture", view_command, run_view},
-    {"compare", "measure how two textures differ, and how visible seams are", compare_command,
-     run_compare},
-    {"distance", "compute geodesic distances from a point", distance_command, run_distance},
-    {"refine", "write the nodes that distances are computed between", refine_command, run_refine},
-    {"map", "write which texel lies where on the surface", map_command, run_map},
-    {"sample", "write Poisson-disk samples of the surface", sample_command, run_sample},
-    {"make-mesh", "make a textured test mesh", make_mesh_command, run_make_mesh},
-};
-
 void print_help(std::ostream& out) {
   out << "usage: onmesh COMMAND [arguments]\n\n"
          "Filters textures on the surface of triangle meshes.\n\n"
          "Commands:\n";
-  for (const Subcommand& command : kCommands) {
+  for (const Subcommand& command : subcommands()) {
     out << "  " << command.name << std::string(12 - std::string(command.name).size(), ' ')
         << command.summary << '\n';
   }
@@ -53,7 +40,7 @@ void print_help(std::ostream& out) {
 
 const Subcommand& find_command(const std::string& name) {
   std::vector<std::string> names;
-  for (const Subcommand& command : kCommands) {
+  for (const Subcommand& command : subcommands()) {
     if (name == command.name) return command;
     names.emplace_back(command.name);
   }

@@ -1,6 +1,8 @@
 // The subcommands: two functions each, in the file of its name.
 #pragma once
 
+#include <span>
+
 #include "arguments.h"
 #include "command.h"
 
@@ -15,6 +17,9 @@ struct Subcommand {
   /// \return the exit code: 0, or 1 when a check that was asked for failed
   int (*run)(const Arguments& arguments);
 };
+
+/// All of them, in the order of onmesh --help.
+std::span<const Subcommand> subcommands();
 
 Command compare_command();
 int run_compare(const Arguments& arguments);

@@ -70,6 +70,21 @@ TEST_CASE("runs that take more memory than they may are refused before the work"
   CHECK(plan_filter(mesh, texture, options).memory_limit == options.max_memory);
 }
 
+TEST_CASE("plans of more nodes or samples than integers count say that they are many", "[setup]") {
+  const TriangleMesh mesh = make_plane(1, 1, 100, 100);
+  const Image texture = make_texture(16, 16, Pattern::checker, 0.3, 7);
+  FilterOptions options = options_for(SampleKind::poisson);
+  options.spacing = Length{1e-9, Length::Unit::mesh};
+  const FilterPlan plan = plan_filter(mesh, texture, options);
+  CHECK(plan.samples >= std::uint64_t(1e18));
+  CHECK(plan.memory_bytes >= std::uint64_t(1e18));
+  CHECK_THROWS_AS(filter(mesh, texture, options), InputError);
+  options = options_for(SampleKind::texel);
+  options.node_spacing = Length{1e-9, Length::Unit::mesh};
+  CHECK_THROWS_WITH(plan_filter(mesh, texture, options),
+                    Catch::StartsWith("node_spacing: would make about 1000000000000000000 nodes"));
+}
+
 TEST_CASE("spacings are set for Poisson samples alone", "[setup]") {
   const TriangleMesh mesh = make_cube();
   const Image texture = make_image(96, 72, 3);

@@ -107,3 +107,62 @@ TEST_CASE("a JPEG with a PNG's name is read for what it is", "[read_image]") {
   write_image(folder / "b.png", image);
   CHECK(same_bits(read_image(folder / "b.png").pixels, image.pixels));
 }
+
+TEST_CASE("files of other formats are refused, whatever else could read them", "[read_image]") {
+  const ImageFolder folder;
+  std::string gif("GIF89a"), psd("8BPS");
+  gif.append(40, '\0');
+  psd.append(40, '\1');
+  dump(folder / "a.gif", gif);
+  dump(folder / "a.png", gif);
+  dump(folder / "a.psd", psd);
+  for (const std::string name : {"a.gif", "a.png", "a.psd"}) {
+    CHECK_THROWS_WITH(read_image(folder / name), Catch::Contains("not a readable image: not PNG"));
+  }
+}
+
+TEST_CASE("a TGA is known by its name or by its end", "[read_image]") {
+  const ImageFolder folder;
+  write_image(folder / "a.tga", noise(8, 8, 3));
+  fs::rename(folder / "a.tga", folder / "a.png");
+  CHECK(read_image(folder / "a.png").width == 8);
+  const std::string bytes = slurp(folder / "a.png");
+  dump(folder / "old.tga", bytes.substr(0, 18 + 8 * 8 * 3));
+  CHECK(read_image(folder / "old.tga").width == 8);
+}
+
+TEST_CASE("an SGI header that the file cannot fill is refused", "[read_image]") {
+  const ImageFolder folder;
+  write_image(folder / "a.sgi", noise(8, 8, 3));
+  const std::string bytes = slurp(folder / "a.sgi");
+  const auto with = [&](std::size_t at, char value) {
+    std::string changed = bytes;
+    changed.at(at) = value;
+    dump(folder / "b.sgi", changed);
+    return folder / "b.sgi";
+  };
+  CHECK(read_image(with(3, bytes[3])).width == 8);
+  constexpr std::size_t kStorage = 2, kBytes = 3, kDimensions = 5, kHeight = 8, kChannels = 10;
+  for (const auto& [at, value] : {std::pair{kStorage, 7},
+                                  {kBytes, 0},
+                                  {kBytes, 5},
+                                  {kDimensions, 9},
+                                  {kHeight, 100},
+                                  {kChannels, 100}}) {
+    INFO("byte " << at << " is " << value);
+    CHECK_THROWS_AS(read_image(with(at, char(value))), InputError);
+  }
+}
+
+TEST_CASE("an EXR attribute that claims more than the file holds is refused before it is read",
+          "[read_image]") {
+  const ImageFolder folder;
+  const std::string bytes = make_exr(2, 1, {{"Y", 2}}, {little(0.5F) + little(1.0F)});
+  dump(folder / "a.exr", bytes);
+  CHECK(read_image(folder / "a.exr").width == 2);
+  std::string changed = bytes;
+  const std::string before = std::string("comments") + '\0' + "string" + '\0';
+  changed.replace(changed.find(before) + before.size(), 4, little(std::int32_t(1'700'000'000)));
+  dump(folder / "b.exr", changed);
+  CHECK_THROWS_WITH(read_image(folder / "b.exr"), Catch::Contains("the file is truncated"));
+}

@@ -10,4 +10,6 @@ std::filesystem::path shared_data() { return source_folder() / "../shared/data";
 
 std::filesystem::path program() { return ONMESH_PROGRAM; }
 
+std::filesystem::path mutation_reader() { return ONMESH_MUTATION_READER; }
+
 }  // namespace onmesh

@@ -17,4 +17,7 @@ std::filesystem::path shared_data();
 /// The program `onmesh` of this build; empty if it is built without.
 std::filesystem::path program();
 
+/// The program of tests/image/read_mutations.cpp.
+std::filesystem::path mutation_reader();
+
 }  // namespace onmesh

@@ -44,13 +44,14 @@ class DistanceBackend {
   /// right, entries beyond may be kUnreachable. If the patch has extents, entries up to
   /// `reach.table` and both nodes' extents are right.
   /// \param table overwritten; its memory is used again
-  /// \throw NumericError if a linear system cannot be solved
   virtual void fill(const Patch& patch, const Reach& reach, DistanceTable& table) const = 0;
   /// Whether patches may have extents.
   virtual bool knows_extents() const { return false; }
   /// Nodes of the whole mesh that no distance leads to because this back end cannot place them on a
   /// surface.
   virtual Index skipped_nodes() const { return 0; }
+  /// Patches so far whose linear systems could not be solved: their distances were unfolded.
+  virtual Index unfolded_patches() const { return 0; }
 };
 
 }  // namespace onmesh

@@ -13,6 +13,7 @@
 #include "onmesh/atlas/gutter.h"
 #include "onmesh/base/face_error.h"
 #include "onmesh/base/process_memory.h"
+#include "onmesh/base/text.h"
 #include "onmesh/distance/make_backend.h"
 #include "onmesh/filter/draw_samples.h"
 #include "onmesh/filter/node_spacing.h"
@@ -162,6 +163,11 @@ void filter_samples(const RunContext& run, const NodeMesh& nodes, const FilterSa
       [&](double done) { run.stages.advance(done); });
   results.merge_shared();
   note_counts(counts, run.report);
+  if (const Index unfolded = backend->unfolded_patches(); unfolded > 0) {
+    run.report.warnings.push_back(count_text(unfolded, "part", "parts") +
+                                  " of the surface with faces too thin for " +
+                                  std::string(backend->name()) + ": distances are unfolded there");
+  }
 }
 
 Image run_filter(const TriangleMesh& mesh, const Image& texture, const FilterOptions& options,

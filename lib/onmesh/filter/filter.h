@@ -28,7 +28,6 @@ namespace onmesh {
 ///   texel or the texture has no channel but alpha; if exact distances are asked for on a mesh that
 ///   is not manifold, or would take more than an hour; if a texel is claimed twice with
 ///   Overlap::error; if there is too little memory
-/// \throw NumericError if a linear system of heat or cloud cannot be solved
 /// \throw FaceError<InputError>, FaceError<NumericError> at a face, by its number in `mesh`
 Image filter(const TriangleMesh& mesh, const Image& texture, const FilterOptions& options,
              FilterReport* report = nullptr, const Progress& progress = {});

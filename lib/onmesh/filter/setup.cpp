@@ -18,6 +18,13 @@ namespace {
 /// So many nodes need some 45 GB.
 constexpr double kMostNodes = 5e7;
 
+/// An estimate as a number: beside tiny lengths it may be beyond all that integers hold.
+std::uint64_t whole(double estimate) {
+  constexpr double kMost = 1e18;
+  return estimate < kMost ? static_cast<std::uint64_t>(estimate)
+                          : static_cast<std::uint64_t>(kMost);
+}
+
 /// In working units.
 /// \throw OptionError if it is too small or too large beside the mesh for single precision
 double resolve_for(const PreparedMesh& prepared, const WorkingPlan& plan, const char* option,
@@ -76,17 +83,17 @@ std::uint64_t plan_poisson(const PreparedMesh& prepared, const FilterOptions& op
   for (Index f = 0; f < prepared.mesh.faces.size(); ++f) {
     if (prepared.map.texel_area[f] > 0) textured.push_back(f);
   }
-  return static_cast<std::uint64_t>(field.expected_samples(prepared.mesh, textured));
+  return whole(field.expected_samples(prepared.mesh, textured));
 }
 
 std::uint64_t plan_nodes(const PreparedMesh& prepared, const FilterOptions& options,
                          const WorkingPlan& plan) {
   const double nodes = expected_nodes(prepared.mesh, refinement_for(prepared, plan));
   if (options.node_spacing && nodes > kMostNodes) {
-    throw OptionError("node_spacing", "would make about " + std::to_string(std::uint64_t(nodes)) +
+    throw OptionError("node_spacing", "would make about " + std::to_string(whole(nodes)) +
                                           " nodes, more than fit in memory; choose a larger one");
   }
-  return static_cast<std::uint64_t>(nodes);
+  return whole(nodes);
 }
 
 /// Beside what is resident by now, the input with its texel map: the values of the result; what
@@ -101,7 +108,7 @@ std::uint64_t estimate_memory(const Image& texture, const FilterPlan& plan, bool
   const double more = values + kBytesPerTexel * double(plan.texels) +
                       bytes_per_sample * double(plan.samples) + kBytesPerNode * double(plan.nodes) +
                       kBytesPerThread * threads;
-  return resident_memory_bytes() + static_cast<std::uint64_t>(more);
+  return whole(double(resident_memory_bytes()) + more);
 }
 
 int thread_count(const FilterOptions& options) {

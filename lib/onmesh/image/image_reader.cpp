@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string_view>
+#include <utility>
 
+#include "onmesh/base/byte_order.h"
 #include "onmesh/base/error.h"
 
 namespace onmesh {
@@ -18,10 +23,12 @@ constexpr std::uint64_t kMostValues = std::uint64_t(1) << 32;  // 16 GB of float
   throw InputError(path.string() + ": " + why);
 }
 
-/// Library messages come with line breaks and may be empty.
+/// Library messages come with line breaks, hold bytes of the file, and may be empty.
 std::string one_line(std::string text, const std::string& otherwise) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-  std::replace(text.begin(), text.end(), '\n', ' ');
+  for (char& c : text) {
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = ' ';
+  }
+  while (!text.empty() && text.back() == ' ') text.pop_back();
   return text.empty() ? otherwise : text;
 }
 
@@ -64,6 +71,90 @@ void check_png(const std::filesystem::path& path) {
   }
 }
 
+/// Walk over an EXR's attributes: OpenEXR makes room for as many bytes as each of them claims to
+/// have, and fills it, before it looks whether they are there.
+void check_exr(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const auto size = std::filesystem::file_size(path);
+  std::array<unsigned char, 8> head{};
+  file.read(reinterpret_cast<char*>(head.data()), head.size());
+  constexpr std::array<unsigned char, 4> kMagic{0x76, 0x2f, 0x31, 0x01};
+  if (!file || !std::equal(kMagic.begin(), kMagic.end(), head.begin())) return;
+  // Headers end with an empty name. Of several parts each has one, and an empty one ends the list.
+  const bool several = (head[5] & 0x10U) != 0;
+  bool header_begins = true;
+  for (std::string name, type; std::getline(file, name, '\0');) {
+    if (name.empty()) {
+      if (!several || header_begins) return;
+      header_begins = true;
+      continue;
+    }
+    header_begins = false;
+    std::array<char, 4> length{};
+    std::getline(file, type, '\0');
+    file.read(length.data(), length.size());
+    const std::uint64_t next =
+        std::uint64_t(file.tellg()) + from_bytes<std::uint32_t>(length.data(), std::endian::little);
+    if (!file || next > size) break;
+    file.seekg(std::streamoff(next));
+  }
+  refuse(path, "the file is truncated");
+}
+
+/// Check an SGI file's header: OpenImageIO takes it for true, whatever the bytes per channel, and
+/// looks for every channel of every row in a file that may be too short for them.
+void check_sgi(const std::filesystem::path& path) {
+  constexpr std::uint64_t kHeader = 512, kTableEntry = 8;  // bytes
+  std::array<unsigned char, 12> head{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(head.data()), head.size());
+  if (!file || head[0] != 0x01 || head[1] != 0xda) return;
+  const auto number = [&](std::size_t at) {
+    return std::uint64_t(head[at]) << 8 | std::uint64_t(head[at + 1]);
+  };
+  const bool compressed = head[2] == 1;
+  const std::uint64_t bytes = head[3], dimensions = number(4), width = number(6);
+  const std::uint64_t height = dimensions > 1 ? number(8) : 1;
+  const std::uint64_t channels = dimensions > 2 ? number(10) : 1;
+  if (head[2] > 1 || bytes < 1 || bytes > 2 || dimensions < 1 || dimensions > 3)
+    refuse(path, "the SGI header is damaged");
+  check_size(path, std::int64_t(width), std::int64_t(height), std::int64_t(channels));
+  const std::uint64_t rows = height * channels;
+  const std::uint64_t least = kHeader + rows * (compressed ? kTableEntry : width * bytes);
+  if (std::filesystem::file_size(path) < least) refuse(path, "the file is truncated");
+}
+
+/// OpenImageIO's name of the format, by the file's first bytes; null if it is none of ours. TGA has
+/// no mark at its start, and none at all if it is old: it may go by the name.
+const char* format_of_content(const std::filesystem::path& path) {
+  using namespace std::string_view_literals;
+  static constexpr std::pair<std::string_view, const char*> kMarks[] = {
+      {"\x89PNG"sv, "png"},
+      {"\xff\xd8"sv, "jpeg"},
+      {"II*\0"sv, "tiff"},
+      {"MM\0*"sv, "tiff"},
+      {"II+\0"sv, "tiff"},
+      {"MM\0+"sv, "tiff"},
+      {"\x76\x2f\x31\x01"sv, "openexr"},
+      {"BM"sv, "bmp"},
+      {"\x01\xda"sv, "sgi"},
+      {"#?"sv, "hdr"}};
+  constexpr std::string_view kTgaEnd = "TRUEVISION-XFILE.\0"sv;
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(kTgaEnd.size(), '\0');
+  const auto size = std::streamsize(bytes.size());
+  file.read(bytes.data(), size);
+  for (const auto& [mark, format] : kMarks)
+    if (bytes.starts_with(mark)) return format;
+  if (bytes[0] == 'P' && "123456fF"sv.find(bytes[1]) != std::string_view::npos) return "pnm";
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  if (extension == ".tga" || extension == ".tpic") return "targa";
+  file.clear();
+  file.seekg(-size, std::ios::end);
+  return file.read(bytes.data(), size) && bytes == kTgaEnd ? "targa" : nullptr;
+}
+
 void check_readable(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
@@ -100,12 +191,19 @@ ImageReader::~ImageReader() = default;
 ImageReader::ImageReader(const std::filesystem::path& path) : path_(path) {
   check_readable(path);
   check_png(path);
+  check_exr(path);
+  check_sgi(path);
   OIIO::ImageSpec wishes;
   wishes.attribute("oiio:UnassociatedAlpha", 1);
-  input_ = OIIO::ImageInput::open(path.string(), &wishes);
-  if (!input_)
-    refuse(path, "not a readable image: " + one_line(OIIO::geterror(), "unknown format"));
-  spec_ = input_->spec();
+  // Left to itself OpenImageIO tries all its readers, those of films and volumes as well, on what
+  // the right one has refused: slow, and not all of them survive damaged files.
+  const char* const found = format_of_content(path);
+  if (found == nullptr)
+    refuse(path, "not a readable image: not PNG, JPEG, TIFF, EXR, TGA, BMP, PNM, SGI or HDR");
+  input_ = OIIO::ImageInput::create(found);
+  if (!input_) refuse(path, "not a readable image: " + one_line(OIIO::geterror(), "no reader"));
+  if (!input_->open(path.string(), spec_, wishes))
+    refuse(path, "not a readable image: " + one_line(input_->geterror(), "no reason given"));
   format_ = input_->format_name();
   check_size(path, spec_.width, spec_.height, spec_.nchannels);
   if (spec_.deep) refuse(path, "deep images cannot be filtered; flatten it first");

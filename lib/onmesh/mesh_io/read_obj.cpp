@@ -1,7 +1,6 @@
 #include "onmesh/mesh_io/read_obj.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <string_view>
 #include <system_error>
@@ -10,42 +9,14 @@
 
 #include "onmesh/base/error.h"
 #include "onmesh/base/file_io.h"
-#include "onmesh/base/text.h"
 #include "onmesh/base/text_scan.h"
 #include "onmesh/mesh_io/find_texture.h"
 #include "onmesh/mesh_io/polygon_mesh.h"
+#include "onmesh/mesh_io/read_mtl.h"
 
 namespace onmesh {
 namespace fs = std::filesystem;
 namespace {
-
-/// The file name behind the options of a `map_Kd` line; options that take up to three numbers end
-/// at the first token that is none, but never take the line's last token.
-std::string_view texture_name(std::string_view line) {
-  static const std::unordered_map<std::string, int> arguments = {
-      {"-blendu", 1}, {"-blendv", 1},     {"-boost", 1},   {"-bm", 1}, {"-cc", 1},
-      {"-clamp", 1},  {"-colorspace", 1}, {"-imfchan", 1}, {"-mm", 2}, {"-texres", 1},
-      {"-type", 1},   {"-o", 3},          {"-s", 3},       {"-t", 3}};
-  const auto split = [](std::string_view text) {
-    const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
-    const std::size_t next = std::min(text.find_first_not_of(" \t", end), text.size());
-    return std::pair{text.substr(0, end), text.substr(next)};
-  };
-  while (line.starts_with('-')) {
-    auto [option, rest] = split(line);
-    const auto known = arguments.find(lower_case(option));
-    if (known == arguments.end() || rest.empty()) break;  // a name that starts with a dash
-    const bool optional = known->second == 3;
-    for (int i = 0; i < known->second; ++i) {
-      const auto [argument, behind] = split(rest);
-      double value = 0;
-      if (behind.empty() || (optional && !parse_number(argument, value))) break;
-      rest = behind;
-    }
-    line = rest;
-  }
-  return line;
-}
 
 /// Bytes.
 constexpr std::uintmax_t kLargestMaterialFile = std::uintmax_t{64} << 20;
@@ -200,17 +171,11 @@ class ObjReader {
       warn(std::string("material file ignored: ") + error.what());
       return;
     }
-    TextScan scan(content, path.string(), Syntax::comments_continuations);
-    const fs::path folder = path.parent_path();
-    Material* current = nullptr;
-    for (; !scan.at_end(); scan.next_line()) {
-      const std::string keyword = lower_case(scan.token());
-      if (keyword == "newmtl") {
-        const auto used = material_by_name_.find(std::string(scan.rest_of_line()));
-        current = used == material_by_name_.end() ? nullptr : &out_.mesh.materials[used->second];
-      } else if (keyword == "map_kd" && current && current->texture.empty()) {
-        current->texture = find_texture(std::string(texture_name(scan.rest_of_line())), folder);
-      }
+    for (const MaterialTexture& given : read_mtl(content, path.string())) {
+      const auto used = material_by_name_.find(given.material);
+      if (used == material_by_name_.end()) continue;
+      std::string& texture = out_.mesh.materials[used->second].texture;
+      if (texture.empty()) texture = find_texture(given.texture, path.parent_path());
     }
   }
 

@@ -1,5 +1,7 @@
 #include "onmesh/distance/cloud/cloud.h"
 
+#include <atomic>
+
 #include "onmesh/distance/cloud/complex.h"
 #include "onmesh/distance/heat/bridges.h"
 #include "onmesh/distance/heat/heat.h"
@@ -20,15 +22,17 @@ class Cloud final : public DistanceBackend {
   }
   void fill(const Patch& patch, const Reach& reach, DistanceTable& table) const override {
     const Complex complex = make_complex(heat::surface_of(patch), geometry_);
-    heat::fill(complex.triangles, complex.cover, complex.weights, reach, table);
+    unfolded_ += !heat::fill(complex.triangles, complex.cover, complex.weights, reach, table);
     if (patch.bridge_faces > 0)
       heat::cross_bridges(complex.triangles, heat::with_bridges(complex.triangles, patch),
                           reach.table, table);
   }
   Index skipped_nodes() const override { return geometry_.skipped; }
+  Index unfolded_patches() const override { return unfolded_; }
 
  private:
   NodeGeometry geometry_;
+  mutable std::atomic<Index> unfolded_ = 0;
 };
 
 }  // namespace

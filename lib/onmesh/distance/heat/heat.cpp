@@ -1,10 +1,13 @@
 #include "onmesh/distance/heat/heat.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "onmesh/base/error.h"
 #include "onmesh/base/simd_targets.h"
 #include "onmesh/distance/heat/bridges.h"
 #include "onmesh/distance/heat/calibration.h"
@@ -163,23 +166,45 @@ class Heat final : public DistanceBackend {
   std::string_view name() const override { return "heat"; }
   double margin(double, double longest_edge) const override { return heat::margin(longest_edge); }
   void fill(const Patch& patch, const Reach& reach, DistanceTable& table) const override {
-    if (patch.bridge_faces == 0) return heat::fill(patch, patch, {}, reach, table);
+    if (patch.bridge_faces == 0) {
+      unfolded_ += !heat::fill(patch, patch, {}, reach, table);
+      return;
+    }
     const Patch surface = surface_of(patch);
-    heat::fill(surface, surface, {}, reach, table);
+    unfolded_ += !heat::fill(surface, surface, {}, reach, table);
     cross_bridges(surface, patch, reach.table, table);
   }
+  Index unfolded_patches() const override { return unfolded_; }
+
+ private:
+  mutable std::atomic<Index> unfolded_ = 0;
 };
+
+// The systems of faces so thin that single numbers take up all their digits have no factors.
+std::optional<LinearSystems> solvable_systems(const Patch& flow, const std::vector<float>& weights,
+                                              double reach) {
+  try {
+    return make_linear_systems(flow, weights, reach);
+  } catch (const NumericError&) {
+    return std::nullopt;
+  }
+}
 
 }  // namespace
 
 double margin(double longest_edge) { return 2 * longest_edge; }
 
-void fill(const Patch& near, const Patch& flow, const std::vector<float>& weights,
+bool fill(const Patch& near, const Patch& flow, const std::vector<float>& weights,
           const Reach& reach, DistanceTable& table) {
   Calibration calibration(near, reach);
   make_unfold()->fill(near, Reach::up_to(calibration.near_reach()), table);
-  if (!(near.longest_edge > 0)) return;
-  const LinearSystems systems = make_linear_systems(flow, weights, reach.table);
+  if (!(near.longest_edge > 0)) return true;
+  const std::optional<LinearSystems> found = solvable_systems(flow, weights, reach.table);
+  if (!found) {
+    make_unfold()->fill(near, Reach::up_to(reach.table), table);
+    return false;
+  }
+  const LinearSystems& systems = *found;
   Solver solver(systems);
   std::vector<double> phi(near.nodes.size());
   for (Index first = 0; first < near.core_nodes; first += Index(kLanes)) {
@@ -194,6 +219,7 @@ void fill(const Patch& near, const Patch& flow, const std::vector<float>& weight
       calibration.complete(source, phi, table.squared.data() + std::size_t(source) * table.columns);
     }
   }
+  return true;
 }
 
 }  // namespace heat

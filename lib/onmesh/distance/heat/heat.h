@@ -36,8 +36,8 @@ double margin(double longest_edge);
 /// \param near what the near field is marched on: as much like the surface as possible
 /// \param flow what heat flows on: as much Delaunay as possible
 /// \param weights per face of flow: how many layers of surface it stands for; empty = 1 each
-/// \throw NumericError if a matrix cannot be factorised
-void fill(const Patch& near, const Patch& flow, const std::vector<float>& weights,
+/// \return false if a matrix cannot be factorised: then all distances are those of unfolding `near`
+bool fill(const Patch& near, const Patch& flow, const std::vector<float>& weights,
           const Reach& reach, DistanceTable& table);
 
 }  // namespace onmesh::heat

@@ -1,0 +1,139 @@
+#include "onmesh/filter/filter.h"
+
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "fuzz/filter_case.h"
+#include "fuzz/target.h"
+#include "onmesh/atlas/gutter_texels.h"
+#include "onmesh/filter/setup.h"
+
+using namespace onmesh;
+
+namespace {
+
+bool same_bits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+/// What a texel may become.
+struct TexelRules {
+  std::vector<bool> covered, gutter;
+  bool all_finite = true;              ///< the covered texels' values
+  std::vector<float> lowest, highest;  ///< per channel, of the finite values that are summed over
+
+  TexelRules(const FilterSetup& setup, const FilterOptions& options, const Image& texture);
+};
+
+TexelRules::TexelRules(const FilterSetup& setup, const FilterOptions& options, const Image& texture)
+    : covered(setup.map.coverage.size()), gutter(covered) {
+  for (const Index texel : gutter_texels(setup.map, options.gutter)) gutter[texel] = true;
+  lowest.assign(std::size_t(texture.channels), std::numeric_limits<float>::infinity());
+  highest.assign(std::size_t(texture.channels), -std::numeric_limits<float>::infinity());
+  // Poisson samples lie beside texels' centres, and may read texels that no face claims.
+  const bool reads_others = options.samples == SampleKind::poisson;
+  for (Index texel = 0; texel < covered.size(); ++texel) {
+    covered[texel] = setup.map.coverage[texel] == Coverage::covered;
+    if (!covered[texel] && !reads_others) continue;
+    for (const int channel : texture.range_channels()) {
+      const auto c = std::size_t(channel);
+      const float value = texture.texel(texel)[c];
+      if (covered[texel]) all_finite &= std::isfinite(value);
+      if (!std::isfinite(value)) continue;
+      lowest[c] = std::min(lowest[c], value);
+      highest[c] = std::max(highest[c], value);
+    }
+  }
+}
+
+/// A covered texel stays in the range of what is summed over, and so does the gutter, which is made
+/// of those; nothing else changes.
+void check_texel(const TexelRules& rules, Index texel, const Image& texture, const Image& result) {
+  const float *before = texture.texel(texel), *after = result.texel(texel);
+  std::vector<bool> filtered(std::size_t(texture.channels));
+  for (const int c : texture.range_channels()) filtered[std::size_t(c)] = true;
+  bool finite = true;
+  for (const int c : texture.range_channels()) finite &= std::isfinite(before[c]);
+  const bool may_change = rules.gutter[texel] || (rules.covered[texel] && finite);
+  for (std::size_t c = 0; c < filtered.size(); ++c) {
+    if (same_bits(before[c], after[c])) continue;
+    const std::string where = " in channel " + std::to_string(c) + " of texel " +
+                              std::to_string(texel) + ": " + std::to_string(before[c]) +
+                              " became " + std::to_string(after[c]);
+    fuzz::require(filtered[c] && may_change, "a value changed that has to stay" + where);
+    if (!std::isfinite(after[c])) {
+      fuzz::require(!rules.covered[texel] && !rules.all_finite, "a value is not finite" + where);
+      continue;
+    }
+    const float slack = rules.covered[texel] ? 0 : 1e-4F * (rules.highest[c] - rules.lowest[c]);
+    fuzz::require(after[c] >= rules.lowest[c] - slack && after[c] <= rules.highest[c] + slack,
+                  "a value is beyond those it is made of, " + std::to_string(rules.lowest[c]) +
+                      " to " + std::to_string(rules.highest[c]) + "," + where);
+  }
+}
+
+void check_result(const FilterSetup& setup, const FilterOptions& options, const Image& texture,
+                  const Image& result) {
+  fuzz::require(result.width == texture.width && result.height == texture.height &&
+                    result.channels == texture.channels &&
+                    result.pixels.size() == texture.pixels.size(),
+                "the result has another size");
+  const TexelRules rules(setup, options, texture);
+  for (Index texel = 0; texel < rules.covered.size(); ++texel) {
+    check_texel(rules, texel, texture, result);
+  }
+}
+
+/// Seconds of processor time. Few faces may well need many nodes, beside spikes of 1 : 10^18 as
+/// many as there may be: such a case is left when it has taken this, for the sake of the others.
+constexpr double kMostSeconds = 0.1;
+
+struct OutOfTime {};
+
+/// What became of a case.
+struct Outcome {
+  std::optional<Image> image;  ///< none if it is an error
+  bool in_time = true;         ///< else nothing is known
+};
+
+Outcome try_filter(const TriangleMesh& mesh, const Image& texture, const FilterOptions& options) {
+  Outcome outcome;
+  const std::clock_t start = std::clock();
+  const auto stop_in_time = [&](std::string_view, double) {
+    if (double(std::clock() - start) / CLOCKS_PER_SEC > kMostSeconds) throw OutOfTime();
+  };
+  try {
+    fuzz::succeeds([&] { outcome.image = filter(mesh, texture, options, nullptr, stop_in_time); });
+  } catch (const OutOfTime&) {
+    outcome.in_time = false;
+  }
+  return outcome;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::Input input(data, size);
+  const bool twice = input.below(8) == 7;
+  const Image texture = fuzz::make_texture(input);
+  const TriangleMesh mesh = fuzz::make_mesh(input);
+  FilterOptions options = fuzz::make_options(input, mesh.faces.size());
+  options.threads = 1;
+  const Outcome one = try_filter(mesh, texture, options);
+  if (one.image) check_result(set_up_filter(mesh, texture, options), options, texture, *one.image);
+  if (!twice || !one.in_time) return 0;
+  options.threads = 2;
+  const Outcome two = try_filter(mesh, texture, options);
+  if (!two.in_time) return 0;
+  fuzz::require(one.image.has_value() == two.image.has_value(),
+                "two threads end otherwise than one");
+  if (one.image) {
+    fuzz::require(std::memcmp(one.image->pixels.data(), two.image->pixels.data(),
+                              one.image->pixels.size() * sizeof(float)) == 0,
+                  "two threads give another result than one");
+  }
+  return 0;
+}

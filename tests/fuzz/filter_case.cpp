@@ -1,0 +1,107 @@
+#include "fuzz/filter_case.h"
+
+#include <limits>
+
+namespace onmesh::fuzz {
+namespace {
+
+/// The next of the values of a generator that is the same everywhere.
+float next_value(std::uint32_t& state) {
+  state = state * 1664525U + 1013904223U;
+  return float(state >> 8) / 16777216.0F;
+}
+
+void fill_with_pattern(Input& input, Image& texture) {
+  const std::size_t pattern = input.below(4);
+  std::uint32_t state = input.byte();
+  const auto channels = std::size_t(texture.channels), width = std::size_t(texture.width);
+  for (std::size_t i = 0; i < texture.pixels.size(); ++i) {
+    const std::size_t x = i / channels % width, y = i / channels / width;
+    float& value = texture.pixels[i];
+    if (pattern == 0) value = next_value(state);
+    if (pattern == 1) value = (x / 3 + y / 3) % 2 == 0 ? 0.2F : 0.8F;
+    if (pattern == 2) value = 0.01F * float(x) + 0.02F * float(y);
+    if (pattern == 3) value = 0.5F;
+  }
+}
+
+void plant_odd_values(Input& input, Image& texture) {
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  static constexpr float kNumbers[] = {std::numeric_limits<float>::quiet_NaN(),
+                                       kInfinity,
+                                       -kInfinity,
+                                       std::numeric_limits<float>::max(),
+                                       std::numeric_limits<float>::lowest(),
+                                       1e20F,
+                                       -1e30F,
+                                       1e-40F,
+                                       -0.0F,
+                                       1e6F};
+  const std::size_t count = input.below(6);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t high = input.byte(), low = input.byte();
+    texture.pixels[(256 * high + low) % texture.pixels.size()] = input.pick(kNumbers);
+  }
+}
+
+/// \param least texels: what is smaller is taken for texels
+Length length(Input& input, double least) {
+  using Unit = Length::Unit;
+  static constexpr Length kLengths[] = {
+      {4, Unit::texel},     {1, Unit::texel},    {2, Unit::texel},    {8, Unit::texel},
+      {0.5, Unit::texel},   {40, Unit::texel},   {10, Unit::percent}, {1, Unit::percent},
+      {300, Unit::percent}, {0.1, Unit::mesh},   {1, Unit::mesh},     {1e-9, Unit::mesh},
+      {1e9, Unit::mesh},    {1e-3, Unit::texel}, {1e5, Unit::texel},  {1e30, Unit::mesh}};
+  const Length chosen = input.pick(kLengths);
+  if (chosen.unit == Unit::texel && chosen.value < least) return {least, Unit::texel};
+  return chosen;
+}
+
+}  // namespace
+
+Image make_texture(Input& input) {
+  const int width = 1 + int(input.below(24)), height = 1 + int(input.below(24));
+  const int channels = 1 + int(input.below(4));
+  Image texture = make_image(width, height, channels);
+  if (input.flag()) texture.alpha_channel = channels - 1;
+  fill_with_pattern(input, texture);
+  plant_odd_values(input, texture);
+  return texture;
+}
+
+FilterOptions make_options(Input& input, std::size_t faces) {
+  FilterOptions options;
+  const std::uint8_t choices = input.byte(), more = input.byte();
+  const auto bit = [](std::uint8_t byte, int i) { return (byte >> i & 1) != 0; };
+  static constexpr DistanceMethod kDistances[] = {DistanceMethod::unfold, DistanceMethod::heat,
+                                                  DistanceMethod::cloud, DistanceMethod::exact,
+                                                  DistanceMethod::automatic};
+  static constexpr FilterMethod kMethods[] = {FilterMethod::automatic, FilterMethod::direct,
+                                              FilterMethod::nodes};
+  static constexpr Overlap kOverlaps[] = {Overlap::average, Overlap::first, Overlap::error};
+  static constexpr double kRanges[] = {0.1, 0.01, 1, 1e-15, 1e15, 1e-3, 30, 0};
+  options.distance = input.pick(kDistances);
+  options.method = input.pick(kMethods);
+  options.overlap = input.pick(kOverlaps);
+  options.sigma_range = input.pick(kRanges);
+  options.gutter = int(input.below(4));
+  options.sigma_spatial = length(input, 0.25);
+  if (bit(choices, 0)) options.kind = FilterKind::gaussian;
+  if (bit(choices, 1)) options.samples = SampleKind::poisson;
+  if (bit(choices, 2)) options.wrap = Wrap::clamp;
+  if (bit(choices, 3)) options.radius = length(input, 0.25);
+  if (bit(choices, 4)) options.bridge = length(input, 1e-3);
+  if (bit(choices, 5)) options.tolerance = bit(more, 0) ? 1e-9 : 10;
+  if (bit(more, 1)) options.node_spacing = length(input, 0.5);
+  if (bit(more, 2)) options.spacing = length(input, 0.5);
+  if (bit(more, 3)) options.r_coef = bit(more, 4) ? 0.1 : 1;
+  if (bit(more, 5)) options.seed = input.byte();
+  if (bit(more, 6)) {
+    options.faces.resize(faces);
+    for (std::size_t f = 0; f < faces; ++f) options.faces[f] = (f + input.byte()) % 3 != 0;
+  }
+  options.max_memory = std::uint64_t(1) << 30;
+  return options;
+}
+
+}  // namespace onmesh::fuzz

@@ -1,0 +1,25 @@
+// A mesh, a texture and options, chosen by the bytes of an input: whatever they are, it is a call
+// of filter() that has an answer, be it an error.
+#pragma once
+
+#include "fuzz/input.h"
+#include "onmesh/filter/options.h"
+#include "onmesh/image/image.h"
+#include "onmesh/mesh/triangle_mesh.h"
+
+namespace onmesh::fuzz {
+
+/// At most so many faces.
+inline constexpr std::size_t kMostFaces = 40;
+
+/// A small shape, then damaged in ways that meshes are found to be.
+TriangleMesh make_mesh(Input& input);
+
+/// At most 24 x 24 texels of 1 to 4 channels, some of the values not finite or huge.
+Image make_texture(Input& input);
+
+/// Any method, with lengths that leave the filter little to do on so few faces.
+/// \param faces of the mesh
+FilterOptions make_options(Input& input, std::size_t faces);
+
+}  // namespace onmesh::fuzz
