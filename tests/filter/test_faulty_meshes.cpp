@@ -2,7 +2,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 
 #include "onmesh/filter/filter.h"
@@ -11,8 +10,6 @@
 
 namespace onmesh {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A place on the mesh, and how it is spoilt there.
 struct Fault {
@@ -116,7 +113,7 @@ double psnr_away(const TriangleMesh& mesh, const Image& a, const Image& b, const
       }
     }
   REQUIRE(values > map.claims.size());  // at least a third of the texels
-  return squared > 0 ? -10 * std::log10(squared / double(values)) : kInfinity;
+  return squared > 0 ? -10 * std::log10(squared / double(values)) : 999;
 }
 
 void check_faults(FilterOptions options, double least = 60) {

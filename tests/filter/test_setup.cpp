@@ -108,5 +108,16 @@ TEST_CASE("a texture of nothing but alpha is refused", "[setup]") {
                     "the texture has no channel but alpha: nothing to filter");
 }
 
+TEST_CASE("texels without number are refused before they are looked for", "[setup]") {
+  TriangleMesh mesh = make_plane(1, 1);
+  for (Vec2& uv : mesh.uvs) uv *= 1000;
+  const Image texture = make_texture(32, 32, Pattern::checker, 0.3, 7);
+  FilterOptions options = options_for(SampleKind::texel);
+  options.max_memory = std::uint64_t{1} << 30;
+  CHECK_THROWS_WITH(
+      plan_filter(mesh, texture, options),
+      Catch::Contains("for 1024000000 texels on the surface, and 1.07 GB may be used"));
+}
+
 }  // namespace
 }  // namespace onmesh

@@ -16,6 +16,7 @@
 #include "onmesh/base/text.h"
 #include "onmesh/distance/make_backend.h"
 #include "onmesh/filter/draw_samples.h"
+#include "onmesh/filter/memory_plan.h"
 #include "onmesh/filter/node_spacing.h"
 #include "onmesh/filter/patch_loop.h"
 #include "onmesh/filter/results.h"

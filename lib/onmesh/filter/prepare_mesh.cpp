@@ -5,6 +5,7 @@
 
 #include "onmesh/base/face_error.h"
 #include "onmesh/base/text.h"
+#include "onmesh/filter/memory_plan.h"
 
 namespace onmesh {
 namespace {
@@ -59,6 +60,19 @@ void warn_of_tiles(const TriangleMesh& mesh, const TexelMap& map,
   warnings.push_back(faces_text(outside) +
                      " with UVs outside [0,1]: the image is repeated there, or cut off with "
                      "wrap=clamp");
+}
+
+/// Faces that hold texels by their UVs, but have no place for a sample on the surface.
+void warn_of_thin_faces(const TriangleMesh& mesh, const std::vector<bool>& faces,
+                        std::vector<std::string>& warnings) {
+  Index thin = 0;
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    const bool is_used = (faces.empty() || faces[f]) && mesh.has_uvs(f) && mesh.uv_area(f) != 0;
+    thin += is_used && mesh.is_degenerate(f);
+  }
+  if (thin == 0) return;
+  warnings.push_back(count_text(thin, "face has", "faces have") +
+                     " no area on the surface: the texture stays as it is there");
 }
 
 /// `faces` of the mesh as read, for the faces that are left.
@@ -138,10 +152,12 @@ PreparedMesh prepare_mesh(const TriangleMesh& mesh, const Image& texture,
   out.unit /= scale;
 
   const std::vector<bool> faces = faces_left(options.faces, out.cleaning);
+  require_memory_for_texels(out.mesh, texture, options);
   out.map = with_face_numbers(out.cleaning.kept, [&] {
     return make_texel_map(out.mesh, texture.width, texture.height, {options.wrap, faces});
   });
   require_claims(out.mesh, out.map, faces);
+  warn_of_thin_faces(out.mesh, faces, out.warnings);
   fit_unit_to_texels(out);
   warn_of_tiles(out.mesh, out.map, out.warnings);
   return out;

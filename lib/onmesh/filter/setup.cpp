@@ -1,13 +1,11 @@
 #include "onmesh/filter/setup.h"
 
-#include <tbb/info.h>
-
 #include <utility>
 
 #include "onmesh/base/error.h"
-#include "onmesh/base/process_memory.h"
 #include "onmesh/base/text.h"
 #include "onmesh/filter/check_options.h"
+#include "onmesh/filter/memory_plan.h"
 #include "onmesh/filter/node_spacing.h"
 #include "onmesh/nodes/expected_nodes.h"
 #include "onmesh/poisson/spacing_field.h"
@@ -17,13 +15,6 @@ namespace {
 
 /// So many nodes need some 45 GB.
 constexpr double kMostNodes = 5e7;
-
-/// An estimate as a number: beside tiny lengths it may be beyond all that integers hold.
-std::uint64_t whole(double estimate) {
-  constexpr double kMost = 1e18;
-  return estimate < kMost ? static_cast<std::uint64_t>(estimate)
-                          : static_cast<std::uint64_t>(kMost);
-}
 
 /// In working units.
 /// \throw OptionError if it is too small or too large beside the mesh for single precision
@@ -83,52 +74,20 @@ std::uint64_t plan_poisson(const PreparedMesh& prepared, const FilterOptions& op
   for (Index f = 0; f < prepared.mesh.faces.size(); ++f) {
     if (prepared.map.texel_area[f] > 0) textured.push_back(f);
   }
-  return whole(field.expected_samples(prepared.mesh, textured));
+  return whole_number(field.expected_samples(prepared.mesh, textured));
 }
 
 std::uint64_t plan_nodes(const PreparedMesh& prepared, const FilterOptions& options,
                          const WorkingPlan& plan) {
   const double nodes = expected_nodes(prepared.mesh, refinement_for(prepared, plan));
   if (options.node_spacing && nodes > kMostNodes) {
-    throw OptionError("node_spacing", "would make about " + std::to_string(whole(nodes)) +
+    throw OptionError("node_spacing", "would make about " + std::to_string(whole_number(nodes)) +
                                           " nodes, more than fit in memory; choose a larger one");
   }
-  return whole(nodes);
-}
-
-/// Beside what is resident by now, the input with its texel map: the values of the result; what
-/// places a texel among the nodes; the samples, or what their sampler needs for them; what
-/// refinement needs for a node with its two faces at most; the tables and records of every thread.
-std::uint64_t estimate_memory(const Image& texture, const FilterPlan& plan, bool poisson,
-                              int threads) {
-  constexpr double kBytesPerTexel = 18, kBytesPerNode = 900;
-  const double bytes_per_sample = poisson ? 190 : 16;
-  constexpr double kBytesPerThread = 12e6;
-  const double values = double(texture.pixels.size()) * sizeof(float);
-  const double more = values + kBytesPerTexel * double(plan.texels) +
-                      bytes_per_sample * double(plan.samples) + kBytesPerNode * double(plan.nodes) +
-                      kBytesPerThread * threads;
-  return whole(double(resident_memory_bytes()) + more);
-}
-
-int thread_count(const FilterOptions& options) {
-  return options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-}
-
-std::uint64_t memory_limit(const FilterOptions& options) {
-  if (options.max_memory > 0) return options.max_memory;
-  return resident_memory_bytes() + available_memory_bytes();
+  return whole_number(nodes);
 }
 
 }  // namespace
-
-void require_memory(const FilterPlan& plan) {
-  if (plan.memory_bytes <= plan.memory_limit) return;
-  throw InputError("would take about " + memory_text(plan.memory_bytes) + " of memory, and " +
-                   memory_text(plan.memory_limit) +
-                   " may be used; choose a larger node spacing or a smaller texture, or allow more "
-                   "with max_memory=bytes");
-}
 
 FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
                           const FilterOptions& options) {
@@ -154,7 +113,7 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   plan.overlapped = setup.overlap.texels().size();
   plan.samples = samples;
   plan.nodes = nodes;
-  plan.memory_bytes = estimate_memory(texture, plan, poisson, thread_count(options));
+  plan.memory_bytes = expected_memory(texture, plan, options);
   plan.memory_limit = memory_limit(options);
   plan.warnings = std::move(setup.warnings);
   return setup;

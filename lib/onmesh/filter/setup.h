@@ -21,7 +21,4 @@ struct FilterSetup : PreparedMesh {
 FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
                           const FilterOptions& options);
 
-/// \throw InputError with both numbers if the plan takes more memory than may be used
-void require_memory(const FilterPlan& plan);
-
 }  // namespace onmesh

@@ -1,0 +1,75 @@
+#include "onmesh/filter/memory_plan.h"
+
+#include <tbb/info.h>
+
+#include <cmath>
+#include <string>
+
+#include "onmesh/base/error.h"
+#include "onmesh/base/process_memory.h"
+
+namespace onmesh {
+namespace {
+
+/// What places a texel among the nodes.
+constexpr double kBytesPerTexel = 18;
+constexpr double kBytesPerSample = 16;
+/// What their sampler needs for each of them.
+constexpr double kBytesPerPoissonSample = 190;
+/// With its two faces, what refinement needs at most.
+constexpr double kBytesPerNode = 900;
+/// Tables and records.
+constexpr double kBytesPerThread = 12e6;
+
+int thread_count(const FilterOptions& options) {
+  return options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+}
+
+void require(std::uint64_t bytes, std::uint64_t limit, const std::string& what) {
+  if (bytes <= limit) return;
+  throw InputError("would take about " + memory_text(bytes) + " of memory" + what + ", and " +
+                   memory_text(limit) +
+                   " may be used; choose a larger node spacing or a smaller texture, or allow more "
+                   "with max_memory=bytes");
+}
+
+}  // namespace
+
+std::uint64_t memory_limit(const FilterOptions& options) {
+  if (options.max_memory > 0) return options.max_memory;
+  return resident_memory_bytes() + available_memory_bytes();
+}
+
+std::uint64_t whole_number(double estimate) {
+  constexpr double kMost = 1e18;
+  return static_cast<std::uint64_t>(estimate < kMost ? estimate : kMost);
+}
+
+std::uint64_t expected_memory(const Image& texture, const FilterPlan& plan,
+                              const FilterOptions& options) {
+  const double values = double(texture.pixels.size()) * sizeof(float);
+  const double per_sample =
+      options.samples == SampleKind::poisson ? kBytesPerPoissonSample : kBytesPerSample;
+  return whole_number(double(resident_memory_bytes()) + values +
+                      kBytesPerTexel * double(plan.texels) + per_sample * double(plan.samples) +
+                      kBytesPerNode * double(plan.nodes) + kBytesPerThread * thread_count(options));
+}
+
+void require_memory_for_texels(const TriangleMesh& mesh, const Image& texture,
+                               const FilterOptions& options) {
+  if (options.wrap == Wrap::clamp) return;  // there are no more than the image has
+  constexpr double kBytesPerClaim = sizeof(TexelClaim);
+  double texels = 0;
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    if (!mesh.has_uvs(f)) continue;
+    const double area = std::abs(mesh.uv_area(f)) * texture.width * texture.height;
+    if (std::isfinite(area)) texels += area;
+  }
+  const double bytes = (kBytesPerClaim + kBytesPerTexel + kBytesPerSample) * texels;
+  require(whole_number(bytes), memory_limit(options),
+          " for " + std::to_string(whole_number(texels)) + " texels on the surface");
+}
+
+void require_memory(const FilterPlan& plan) { require(plan.memory_bytes, plan.memory_limit, ""); }
+
+}  // namespace onmesh

@@ -1,0 +1,30 @@
+// How much memory a run takes, and how much it may take.
+#pragma once
+
+#include "onmesh/filter/options.h"
+#include "onmesh/filter/report.h"
+#include "onmesh/image/image.h"
+#include "onmesh/mesh/triangle_mesh.h"
+
+namespace onmesh {
+
+/// What may be resident, bytes: options.max_memory, or what is resident and what is left.
+std::uint64_t memory_limit(const FilterOptions& options);
+
+/// Most that will be resident, bytes, if the texel map is resident already.
+/// \param plan texels, samples and nodes are read
+std::uint64_t expected_memory(const Image& texture, const FilterPlan& plan,
+                              const FilterOptions& options);
+
+/// An estimate as a number of things: beside tiny lengths it may be beyond all that integers hold.
+std::uint64_t whole_number(double estimate);
+
+/// \throw InputError with both numbers if the texels that the UVs cover, before any is looked for,
+///   take more memory by themselves than may be used
+void require_memory_for_texels(const TriangleMesh& mesh, const Image& texture,
+                               const FilterOptions& options);
+
+/// \throw InputError with both numbers if the plan takes more memory than may be used
+void require_memory(const FilterPlan& plan);
+
+}  // namespace onmesh
