@@ -18,8 +18,8 @@ constexpr double kBytesPerSample = 16;
 constexpr double kBytesPerPoissonSample = 190;
 /// With its two faces, what refinement needs at most.
 constexpr double kBytesPerNode = 900;
-/// Tables and records.
-constexpr double kBytesPerThread = 12e6;
+/// Tables and records; rarely so much, more only beside needles.
+constexpr double kBytesPerThread = 45e6;
 
 int thread_count(const FilterOptions& options) {
   return options.threads > 0 ? options.threads : tbb::info::default_concurrency();
