@@ -22,8 +22,8 @@ constexpr double kVerticesPerFace = 0.5;
 constexpr double kSimilar = 1.3;
 /// Parts of fewer nodes than this are not looked at closer.
 constexpr double kNoNodes = 0.01;
-/// Parts are halved so often at most.
-constexpr int kDeepest = 100;
+/// A face is cut into so many parts at most: beside lengths of 1 : 10^16 its sizes are rounding.
+constexpr int kMostParts = 2000;
 
 /// The density of nodes over one face.
 class FaceDensity {
@@ -39,7 +39,8 @@ class FaceDensity {
   }
 
   /// How many nodes lie in the face.
-  double nodes() const {
+  double nodes() {
+    parts_ = 0;
     return area_ > 0 ? nodes_in({Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, 0) : 0;
   }
 
@@ -63,7 +64,7 @@ class FaceDensity {
     return result + remoteness_(point);
   }
 
-  double nodes_in(const Part& part, int depth) const {
+  double nodes_in(const Part& part, int depth) {
     double least = std::numeric_limits<double>::infinity(), largest = 0, density = 0;
     const auto look = [&](double spacing) {
       least = std::min(least, spacing);
@@ -81,7 +82,8 @@ class FaceDensity {
       if (length[k] > length[longest]) longest = k;
     }
     const double part_area = std::ldexp(area_, -depth);
-    if (largest < kSimilar * least || depth == kDeepest || part_area < kNoNodes * least * least)
+    const bool is_similar = !(largest >= kSimilar * least);  // also where it is not a number
+    if (is_similar || ++parts_ > kMostParts || part_area < kNoNodes * least * least)
       return (options_.flat_faces ? kBisected : kNodesPerSquareSpacing) * part_area * density;
     // At the longest edge, so that parts of needles become as short as they are wide.
     Part first = part, second = part;
@@ -95,6 +97,7 @@ class FaceDensity {
   const std::array<Vec3, 3> at_;
   const double area_;
   std::array<double, 3> near_{};
+  int parts_ = 0;
 };
 
 }  // namespace
