@@ -210,7 +210,7 @@ WalkEnd UnfoldedWalk::over_edge(const LaidFace& start, int k, const Vec2& from,
                                 const Vec2& to) const {
   if (!(barycentric_in(start.corners, to)[(k + 2) % 3] < kInside))
     return over_surface(start, from, to);
-  const WalkEnd end = walk_out<false>(start, k, from, to);
+  WalkEnd end = walk_out<false>(start, k, from, to);
   if (end.arrived) return end;
   const WalkEnd other = over_surface(start, from, to);
   return other.arrived ? other : end;
