@@ -44,7 +44,7 @@ Samples sort_into_faces(std::vector<Sample> located, const std::vector<Index>& f
 }
 
 NodePoint locate(const Overlay& overlay, const SurfacePoint& point) {
-  const NodePoint at = overlay.locate(point);
+  NodePoint at = overlay.locate(point);
   if (at.face == kNone) {
     throw FaceError<NumericError>(point.face, "it is too thin to be laid out between the nodes");
   }
