@@ -11,6 +11,7 @@
 #include "fuzz/target.h"
 #include "onmesh/filter/length.h"
 #include "subcommands.h"
+#include "support/temp_folder.h"
 
 using namespace onmesh;
 
@@ -33,11 +34,8 @@ class NoFiles {
 
  private:
   static int removed_folder() {
-    std::string path = (std::filesystem::temp_directory_path() / "onmesh-fuzz-XXXXXX").string();
-    fuzz::require(::mkdtemp(path.data()) != nullptr, "cannot make a folder");
-    const int folder = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    ::rmdir(path.c_str());
-    return folder;
+    const TempFolder folder;  // what is opened outlives it
+    return ::open(folder.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   }
   int before_;
 };

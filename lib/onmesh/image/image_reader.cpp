@@ -12,6 +12,7 @@
 
 #include "onmesh/base/byte_order.h"
 #include "onmesh/base/error.h"
+#include "onmesh/base/text.h"
 
 namespace onmesh {
 namespace {
@@ -147,8 +148,7 @@ const char* format_of_content(const std::filesystem::path& path) {
   for (const auto& [mark, format] : kMarks)
     if (bytes.starts_with(mark)) return format;
   if (bytes[0] == 'P' && "123456fF"sv.find(bytes[1]) != std::string_view::npos) return "pnm";
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lower_case(path.extension().string());
   if (extension == ".tga" || extension == ".tpic") return "targa";
   file.clear();
   file.seekg(-size, std::ios::end);

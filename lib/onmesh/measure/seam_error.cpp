@@ -39,7 +39,7 @@ void measure(const TriangleMesh& mesh, const Image& image, Wrap wrap, Seam& seam
   const std::size_t a = seam.face % 3, b = (a + 1) % 3, c = seam.other % 3, d = (c + 1) % 3;
   const bool opposed = mesh.faces[f][a] == mesh.faces[g][d];
   const auto u = mesh.corner_uvs(f), v = mesh.corner_uvs(g);
-  const Vec2 u0 = u[a], u1 = u[b], v0 = v[opposed ? d : c], v1 = v[opposed ? c : d];
+  const Vec2 &u0 = u[a], &u1 = u[b], &v0 = v[opposed ? d : c], &v1 = v[opposed ? c : d];
   seam.length = (mesh.positions[mesh.faces[f][b]] - mesh.positions[mesh.faces[f][a]]).norm();
   const Vec2 size(image.width, image.height);
   const double pixels =

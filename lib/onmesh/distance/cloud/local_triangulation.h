@@ -31,9 +31,9 @@ class LocalTriangulation {
   /// \pre points and order outlive this
   LocalTriangulation(const PointCloud& points, const std::vector<Index>& order);
 
-  /// Append the triangles around a point. Where the neighbourhood cannot be flattened (the normals
-  /// cancel, or the neighbours come out of order), these are the faces around the point.
-  void triangulate(Index point, std::vector<LocalTriangle>& triangles);
+  /// Append the triangles around a node. Where the neighbourhood cannot be flattened (the normals
+  /// cancel, or the neighbours come out of order), these are the faces around it.
+  void triangulate(Index centre, std::vector<LocalTriangle>& triangles);
 
  private:
   struct Neighbour {

@@ -82,8 +82,7 @@ class Slice {
   }
 
   /// likeness[k][lane] = f(|colour of the sample - c_k|) for samples first, ...
-  /// \return how far their support is to be trusted: the fourth power of the largest likeness,
-  /// whose
+  /// \return how far their support is to be trusted: the fourth power of the largest likeness; its
   ///   square is what the nearest colour alone represents of theirs
   template <int kChannels>
   V compare(const Chunk& chunk, std::size_t first) {
