@@ -1,7 +1,9 @@
 #include "onmesh/filter/node_spacing.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "onmesh/filter/setup.h"
 #include "onmesh/nodes/expected_nodes.h"
 #include "onmesh/procedural/shapes.h"
 
@@ -45,6 +47,21 @@ TEST_CASE("nodes are wanted only where texels are", "[spacing]") {
   CHECK(expected_nodes(some.mesh, few) < 0.5 * expected_nodes(all.mesh, many));
   plan.bridge = 0.1;
   CHECK(refinement_for(all, plan).flat_faces);
+}
+
+/// The largest spacing of use in the faces of a plane with a corner that is drawn out, in radii.
+double longest_useful(double corner) {
+  TriangleMesh mesh = make_plane(8, 8);
+  mesh.positions[0] = {-corner, -corner, 0};
+  const FilterSetup setup = set_up_filter(mesh, make_image(64, 64, 1), {});
+  const std::vector<double>& useful = setup.refinement.least_useful;
+  return *std::max_element(useful.begin(), useful.end()) / setup.lengths.radius;
+}
+
+TEST_CASE("node faces are short beside the radius if that takes few nodes more", "[spacing]") {
+  CHECK(longest_useful(0) == 0);
+  CHECK(longest_useful(20) == Approx(4));
+  CHECK(longest_useful(1e8) > 1e3);  // that would be a million nodes
 }
 
 }  // namespace

@@ -93,8 +93,9 @@ HWY_INLINE Change take(const Step<T>& step, const T* at_v, const T* root, T limi
 
 // From up to kLanes sources, one per lane, as far as the reach and the complex's limits say.
 // \param reach of all sources, in the complex's unit
+// \param noise smaller relative improvements are not passed on
 template <class T>
-void march(const Complex<T>& complex, const Index* sources, std::size_t count, T reach,
+void march(const Complex<T>& complex, const Index* sources, std::size_t count, T reach, T noise,
            Scratch<T>& s) {
   const hn::CappedTag<T, kLanes> d;
   const std::size_t capacity = s.queue.size();
@@ -119,7 +120,6 @@ void march(const Complex<T>& complex, const Index* sources, std::size_t count, T
   // Smaller improvements are kept, but not passed on: rounding must not keep the march busy. It
   // visits a node some ten times. Where edges are so short that rounding keeps it going, it has to
   // come to an end all the same: more and more counts as noise.
-  T noise = sizeof(T) == 4 ? T(1e-6) : T(1e-12);
   std::size_t visits = 0, patience = 64 * capacity;
 
   alignas(64) std::array<T, kLanes> root;
@@ -148,12 +148,12 @@ void march(const Complex<T>& complex, const Index* sources, std::size_t count, T
 }
 
 void march_float(const Complex<float>& complex, const Index* sources, std::size_t count,
-                 float reach, Scratch<float>& scratch) {
-  march(complex, sources, count, reach, scratch);
+                 float reach, float noise, Scratch<float>& scratch) {
+  march(complex, sources, count, reach, noise, scratch);
 }
 void march_double(const Complex<double>& complex, const Index* sources, std::size_t count,
-                  double reach, Scratch<double>& scratch) {
-  march(complex, sources, count, reach, scratch);
+                  double reach, double noise, Scratch<double>& scratch) {
+  march(complex, sources, count, reach, noise, scratch);
 }
 
 }  // namespace onmesh::unfold::HWY_NAMESPACE
@@ -169,17 +169,17 @@ HWY_EXPORT(march_double);
 namespace {
 
 void march(const Complex<float>& complex, const Index* sources, std::size_t count, float reach,
-           Scratch<float>& scratch) {
-  HWY_DYNAMIC_DISPATCH(march_float)(complex, sources, count, reach, scratch);
+           float noise, Scratch<float>& scratch) {
+  HWY_DYNAMIC_DISPATCH(march_float)(complex, sources, count, reach, noise, scratch);
 }
 void march(const Complex<double>& complex, const Index* sources, std::size_t count, double reach,
-           Scratch<double>& scratch) {
-  HWY_DYNAMIC_DISPATCH(march_double)(complex, sources, count, reach, scratch);
+           double noise, Scratch<double>& scratch) {
+  HWY_DYNAMIC_DISPATCH(march_double)(complex, sources, count, reach, noise, scratch);
 }
 
 template <class T>
 void fill_table(const Patch& patch, const Incidence& around, double reach, double scale,
-                double slack, DistanceTable& table) {
+                double slack, double noise, DistanceTable& table) {
   const Complex<T> complex = make_complex<T>(patch, around, scale, slack);
   const std::vector<Index> order = order_sources(patch, around, kLanes);
   const std::size_t nodes = patch.nodes.size();
@@ -195,7 +195,7 @@ void fill_table(const Patch& patch, const Incidence& around, double reach, doubl
     double extent = 0;
     for (std::size_t lane = 0; lane < count && !patch.extents.empty(); ++lane)
       extent = std::max(extent, patch.extents[order[begin + lane]]);
-    march(complex, order.data() + begin, count, T((reach + extent) / scale), scratch);
+    march(complex, order.data() + begin, count, T((reach + extent) / scale), T(noise), scratch);
     for (const Index node : scratch.touched) {
       T* const at = scratch.squared.data() + std::size_t(node) * kLanes;
       for (std::size_t lane = 0; lane < count; ++lane)
@@ -232,9 +232,10 @@ class Unfold final : public DistanceBackend {
     }
     const double scale = patch.longest_edge > 0 ? patch.longest_edge : 1;
     if (worst < 8)
-      fill_table<float>(patch, around, reach.table, scale, 1, table);
+      fill_table<float>(patch, around, reach.table, scale, 1, 1e-6, table);
     else
-      fill_table<double>(patch, around, reach.table, scale, 2, table);
+      fill_table<double>(patch, around, reach.table, scale, 2,
+                         std::clamp(1e-14 * worst, 1e-12, 1e-5), table);
   }
 };
 

@@ -17,7 +17,6 @@
 #include "onmesh/distance/make_backend.h"
 #include "onmesh/filter/draw_samples.h"
 #include "onmesh/filter/memory_plan.h"
-#include "onmesh/filter/node_spacing.h"
 #include "onmesh/filter/patch_loop.h"
 #include "onmesh/filter/results.h"
 #include "onmesh/filter/setup.h"
@@ -107,11 +106,9 @@ struct RunContext {
 /// \param image gets a copy of the texture
 NodeSurface make_nodes(const RunContext& run, Image& image) {
   const FilterSetup& setup = run.setup;
-  RefineOptions refinement = refinement_for(setup, setup.lengths);
+  RefineOptions refinement = setup.refinement;
   // The plan has an upper bound. Needles and strips can go beyond, by what is nothing to speak of.
   constexpr double kLittle = 20000;
-  refinement.any_shape = run.options.distance == DistanceMethod::automatic ||
-                         run.options.distance == DistanceMethod::unfold;
   refinement.enough_nodes = Index(std::min(1e8, 1.5 * double(setup.mesh_plan.nodes) + kLittle));
   RefineReport refined;
   NodeSurface surface;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "onmesh/nodes/expected_nodes.h"
+
 namespace onmesh {
 namespace {
 
@@ -28,6 +30,31 @@ double longest_texel_side(const PreparedMesh& prepared, Index face) {
   const double a = sides.col(0).squaredNorm(), b = sides.col(1).squaredNorm();
   const double c = sides.col(0).dot(sides.col(1));
   return std::sqrt((a + b) / 2 + std::hypot((a - b) / 2, c));
+}
+
+/// Distances have to be right as far around a node face as it is long, so that a few long ones make
+/// all patches large. They are kept as short as so many more nodes allow: radii first, longer and
+/// longer where there would be too many.
+void shorten_stretched(const PreparedMesh& prepared, double radius, RefineOptions& options) {
+  constexpr double kRadii = 4, kStep = 2, kMoreNodes = 1.5;
+  constexpr int kTries = 10;
+  constexpr double kNothing = std::numeric_limits<double>::max();
+  double longest = 0;
+  for (const double spacing : options.least_useful) {
+    if (spacing < kNothing) longest = std::max(longest, spacing);
+  }
+  if (longest <= kRadii * radius) return;
+  const double enough = kMoreNodes * expected_nodes(prepared.mesh, options);
+  double limit = kRadii * radius;
+  for (int i = 0; i < kTries && limit < longest; ++i, limit *= kStep) {
+    RefineOptions shorter = options;
+    for (double& spacing : shorter.least_useful) {
+      if (spacing < kNothing) spacing = std::min(spacing, limit);
+    }
+    if (expected_nodes(prepared.mesh, shorter) > enough) continue;
+    options = std::move(shorter);
+    return;
+  }
 }
 
 }  // namespace
@@ -64,6 +91,7 @@ RefineOptions refinement_for(const PreparedMesh& prepared, const WorkingPlan& pl
   // texels; some more keep the faces there as small as they are where the spacing is not yet
   // larger.
   options.reach = plan.radius + std::max(9 * plan.curved_spacing, 6 * plan.node_spacing);
+  shorten_stretched(prepared, plan.radius, options);
   return options;
 }
 

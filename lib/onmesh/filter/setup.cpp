@@ -77,9 +77,9 @@ std::uint64_t plan_poisson(const PreparedMesh& prepared, const FilterOptions& op
   return whole_number(field.expected_samples(prepared.mesh, textured));
 }
 
-std::uint64_t plan_nodes(const PreparedMesh& prepared, const FilterOptions& options,
-                         const WorkingPlan& plan) {
-  const double nodes = expected_nodes(prepared.mesh, refinement_for(prepared, plan));
+std::uint64_t plan_nodes(const PreparedMesh& prepared, const RefineOptions& refinement,
+                         const FilterOptions& options) {
+  const double nodes = expected_nodes(prepared.mesh, refinement);
   if (options.node_spacing && nodes > kMostNodes) {
     throw OptionError("node_spacing", "would make about " + std::to_string(whole_number(nodes)) +
                                           " nodes, more than fit in memory; choose a larger one");
@@ -96,7 +96,7 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   if (texture.range_channels().empty()) {
     throw InputError("the texture has no channel but alpha: nothing to filter");
   }
-  FilterSetup setup{prepare_mesh(mesh, texture, options), {}, {}, false, {}};
+  FilterSetup setup{prepare_mesh(mesh, texture, options), {}, {}, {}, false, {}};
   setup.overlap = OverlapPolicy(options.overlap, setup.map);
   if (!setup.overlap.texels().empty()) setup.warnings.push_back(setup.overlap.warning());
 
@@ -105,7 +105,10 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   setup.lengths = plan_lengths(setup, options);
   const std::uint64_t texels = setup.map.claims.size();
   const std::uint64_t samples = poisson ? plan_poisson(setup, options, setup.lengths) : texels;
-  const std::uint64_t nodes = plan_nodes(setup, options, setup.lengths);
+  setup.refinement = refinement_for(setup, setup.lengths);
+  setup.refinement.any_shape =
+      options.distance == DistanceMethod::automatic || options.distance == DistanceMethod::unfold;
+  const std::uint64_t nodes = plan_nodes(setup, setup.refinement, options);
 
   FilterPlan& plan = setup.mesh_plan;
   plan = in_mesh_units(setup.lengths, setup.unit);

@@ -44,6 +44,9 @@ class Numbering {
   std::vector<Index> slots_, keys_;
 };
 
+// Without std::hypot's care for squares that overflow, which lengths in working units don't need.
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
+
 // A lower estimate of the distance at the third corner of a triangle from those at the ends of its
 // edge of length l; a and b are the other edges' lengths. The least of the paths along the edges,
 // from a point source, and from a straight front (which is what the core's edges send out); only
@@ -62,7 +65,7 @@ double distance_across(double da, double db, double l, double a, double b) {
     const double sy = std::sqrt(sy2);
     const double crossing = sx * y + x * sy;
     if (crossing >= 0 && crossing <= l * (y + sy))
-      best = std::min(best, std::max(std::hypot(x - sx, y + sy), least));
+      best = std::min(best, std::max(length(x - sx, y + sy), least));
   }
   const double nx = (db - da) / l;
   if (std::abs(nx) < 1) {
@@ -119,7 +122,7 @@ Growth march_from(const NodeMesh& mesh, const Numbering& core, const Reach& reac
     const auto [d, i] = queue.top();
     queue.pop();
     if (d > growth.distance[i]) continue;
-    if (++visits > patience + 32 * growth.distance.size()) {
+    if (++visits > patience + 8 * growth.distance.size()) {
       patience += growth.distance.size();
       growth.noise = std::min(1.0, 2 * growth.noise);
     }

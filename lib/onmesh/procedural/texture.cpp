@@ -61,7 +61,7 @@ Vec3 pattern_colour(Pattern pattern, const Vec3& p, const Vec3& extent, std::uin
       Vec3 centre;
       for (int c = 0; c < 3; ++c)
         centre[c] = std::floor(p[c]) + 0.5 + 0.2 * (random_unit_at(cell, unsigned(c)) - 0.5);
-      if ((p - centre).norm() > 0.38) return pale;
+      if ((p - centre).norm() > 0.38) return Vec3(pale);
       return cell % 3 == 0 ? warm : cell % 3 == 1 ? cool : red;
     }
   }
