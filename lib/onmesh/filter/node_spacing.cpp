@@ -51,7 +51,7 @@ void shorten_stretched(const PreparedMesh& prepared, double radius, RefineOption
     for (double& spacing : shorter.least_useful) {
       if (spacing < kNothing) spacing = std::min(spacing, limit);
     }
-    if (expected_nodes(prepared.mesh, shorter) > enough) continue;
+    if (!(expected_nodes(prepared.mesh, shorter) <= enough)) continue;  // also if it is NaN
     options = std::move(shorter);
     return;
   }

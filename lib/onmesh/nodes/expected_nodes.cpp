@@ -22,6 +22,7 @@ constexpr double kSimilar = 1.3;
 /// Parts of fewer nodes than this are not looked at closer.
 constexpr double kNoNodes = 0.01;
 /// A face is cut into so many parts at most: beside lengths of 1 : 10^16 its sizes are rounding.
+/// What is left counts as wide as its largest spacing.
 constexpr int kMostParts = 2000;
 
 /// The density of nodes over one face.
@@ -82,7 +83,8 @@ class FaceDensity {
     }
     const double part_area = std::ldexp(area_, -depth);
     const bool is_similar = !(largest >= kSimilar * least);  // also where it is not a number
-    if (is_similar || ++parts_ > kMostParts || part_area < kNoNodes * least * least)
+    if (++parts_ > kMostParts) density = 1 / (largest * largest);
+    if (is_similar || parts_ > kMostParts || part_area < kNoNodes * least * least)
       return (options_.flat_faces ? kBisected : kNodesPerSquareSpacing) * part_area * density;
     // At the longest edge, so that parts of needles become as short as they are wide.
     Part first = part, second = part;
