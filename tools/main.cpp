@@ -8,6 +8,7 @@
 #include "command.h"
 #include "flags.h"
 #include "interruption.h"
+#include "library_start.h"
 #include "onmesh/base/error.h"
 #include "onmesh/base/process_memory.h"
 #include "onmesh/base/simd_level.h"
@@ -103,6 +104,7 @@ void limit_instructions() {
 int main(int argc, char** argv) {
   std::string name;
   int code = 0;
+  end_library_start();
   install_signal_handling();
   try {
     limit_instructions();
