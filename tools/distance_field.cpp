@@ -27,7 +27,7 @@ double longest_path(const NodeMesh& nodes) {
 }
 
 Image empty_texture(const TexelMap& map) {
-  Image image = make_image(map.width, map.height, 1);
+  Image image = make_image(map.tiles[0].width, map.tiles[0].height, 1);
   std::fill(image.pixels.begin(), image.pixels.end(), float(kNaN));
   return image;
 }
@@ -186,7 +186,8 @@ Image exact_distance_texture(const TriangleMesh& mesh, const TexelMap& map,
   const std::vector<double> distances =
       NearbyGeodesics(mesh, radius).distances(source.point, points);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!std::isnan(distances[i])) take_least(image, map.texel(map.claims[i]), distances[i]);
+    if (!std::isnan(distances[i]))
+      take_least(image, map.tiles[0].texel(map.claims[i]), distances[i]);
   }
   return image;
 }

@@ -50,7 +50,7 @@ const std::vector<std::string> kNames = {"x",  "y",     "z",      "area",     "b
                                          "b2", "chart", "claims", "coverage", "face"};
 
 Image draw(const TriangleMesh& mesh, const TexelMap& map, const std::vector<Index>& file_face) {
-  Image image = make_image(map.width, map.height, kChannels);
+  Image image = make_image(map.tiles[0].width, map.tiles[0].height, kChannels);
   image.channel_names = kNames;
   for (Index i = 0; i < map.coverage.size(); ++i) {
     float* const texel = image.texel(i);
@@ -59,7 +59,7 @@ Image draw(const TriangleMesh& mesh, const TexelMap& map, const std::vector<Inde
   }
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     for (Index c = map.face_offsets[f]; c < map.face_offsets[f + 1]; ++c) {
-      float* const texel = image.texel(map.texel(map.claims[c]));
+      float* const texel = image.texel(map.tiles[0].texel(map.claims[c]));
       if (texel[kClaims]++ > 0) continue;
       const Vec3 b = map.barycentric(f, map.claims[c]);
       const Vec3 p = mesh.position({f, b});
@@ -105,8 +105,8 @@ void print_json(const std::string& path, const std::string& output, const Atlas&
   json.update({{"mesh", path},
                {"output", output},
                {"texture", text_or_null(atlas.texture)},
-               {"width", map.width},
-               {"height", map.height},
+               {"width", map.tiles[0].width},
+               {"height", map.tiles[0].height},
                {"charts", map.charts},
                {"claims", map.claims.size()},
                {"covered", found.covered},
@@ -143,7 +143,7 @@ int run_map(const Arguments& arguments) {
   if (arguments.flag("json")) {
     print_json(path, output, atlas, map, found);
   } else if (!arguments.flag("quiet")) {
-    std::cerr << output << ": " << map.width << " x " << map.height << ", "
+    std::cerr << output << ": " << map.tiles[0].width << " x " << map.tiles[0].height << ", "
               << format_count(found.covered) << " texels covered in " << format_count(map.charts)
               << " charts, " << format_count(found.touched) << " touched, "
               << format_count(found.overlapped) << " shared, texel size "

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
+#include <string>
+#include <utility>
 
 #include "format.h"
 #include "interruption.h"
@@ -106,7 +108,7 @@ Hits count_hits(const TriangleMesh& mesh, const TexelMap& map,
   for (const SurfacePoint& s : samples) {
     if (map.chart_of_face[s.face] == kNone) continue;
     const Index claim = hits_of.find(s.face, mesh.uv(s));
-    if (claim != kNone) is_hit[map.texel(map.claims[claim])] = true;
+    if (claim != kNone) is_hit[map.tiles[0].texel(map.claims[claim])] = true;
   }
   Hits hits;
   for (std::size_t t = 0; t < is_hit.size(); ++t) {
@@ -126,9 +128,9 @@ Vec3 normal(const TriangleMesh& mesh, Index face) {
 std::vector<PlyColumn> columns(const TriangleMesh& mesh, const std::vector<SurfacePoint>& samples,
                                const std::vector<double>* spacings) {
   std::vector<PlyColumn> result;
-  const auto add = [&](const char* name, const auto& value_of) {
+  const auto add = [&](std::string name, const auto& value_of) {
     result.push_back({});
-    result.back().name = name;
+    result.back().name = std::move(name);
     result.back().values.reserve(samples.size());
     for (const SurfacePoint& s : samples) result.back().values.push_back(value_of(s));
   };

@@ -112,7 +112,7 @@ Scene make_scene(const Subject& subject, double sigma_texels, std::size_t texels
   FilterOptions options;
   options.sigma_spatial = {sigma_texels, Length::Unit::texel};
   options.sigma_range = kSigmaRange;
-  scene.setup = set_up_filter(subject.make(), scene.texture, options);
+  scene.setup = set_up_filter(subject.make(), one_texture(scene.texture, options), options);
   const TriangleMesh& mesh = scene.setup.mesh;
 
   scene.points = texel_points(mesh, scene.texture.width, scene.texture.height);

@@ -54,20 +54,20 @@ void check_against_brute_force(const TriangleMesh& mesh, const TexelMap& map) {
   std::vector<Index> owner(map.coverage.size(), kNone);
   for (Index f = 0; f < mesh.faces.size(); ++f)
     for (Index i = map.face_offsets[f]; i < map.face_offsets[f + 1]; ++i) {
-      REQUIRE(owner[map.texel(map.claims[i])] == kNone);
-      owner[map.texel(map.claims[i])] = f;
+      REQUIRE(owner[map.tiles[0].texel(map.claims[i])] == kNone);
+      owner[map.tiles[0].texel(map.claims[i])] = f;
     }
-  for (int y = 0; y < map.height; ++y)
-    for (int x = 0; x < map.width; ++x) {
+  for (int y = 0; y < map.tiles[0].height; ++y)
+    for (int x = 0; x < map.tiles[0].width; ++x) {
       Index expected = kNone;
       bool meets = false;
       for (Index f = 0; f < mesh.faces.size(); ++f) {
-        const auto t = pixel_corners(mesh, f, map.width, map.height);
+        const auto t = pixel_corners(mesh, f, map.tiles[0].width, map.tiles[0].height);
         if (!has_area(t)) continue;
         if (expected == kNone && holds_point(t, {x + 0.5, y + 0.5}, 1e-10)) expected = f;
         meets = meets || meets_square(t, x, y);
       }
-      const auto at = std::size_t(y * map.width + x);
+      const auto at = std::size_t(y * map.tiles[0].width + x);
       INFO("texel " << x << ", " << y);
       REQUIRE(owner[at] == expected);
       const Coverage coverage = expected != kNone ? Coverage::covered
@@ -134,7 +134,7 @@ TEST_CASE("a fan around a vertex on a texel centre gives it to one face", "[clai
   const TriangleMesh mesh = flat(uvs, faces);
   const TexelMap map = make_texel_map(mesh, 10, 10);
   CHECK(map.overlapped().empty());
-  const auto is_centre = [&](const TexelClaim& claim) { return map.texel(claim) == 44; };
+  const auto is_centre = [&](const TexelClaim& claim) { return map.tiles[0].texel(claim) == 44; };
   CHECK(std::any_of(map.claims.begin(), map.claims.begin() + map.face_offsets[1], is_centre));
 }
 
@@ -159,8 +159,8 @@ TEST_CASE("repeated UVs claim wrapped texels", "[claim_texels]") {
   for (const int n : claim_counts(map)) REQUIRE(n == 3);
   CHECK(map.overlapped().size() == 20 * 16);
   CHECK(claimed_area(map) == Approx(1).epsilon(1e-12));
-  CHECK(map.texel({-1, -1}) == 20 * 16 - 1);
-  CHECK(map.texel({-20, 16}) == 0);
+  CHECK(map.tiles[0].texel({-1, -1}) == 20 * 16 - 1);
+  CHECK(map.tiles[0].texel({-20, 16}) == 0);
   const TexelMap clamped = make_texel_map(mesh, 20, 16, {Wrap::clamp, {}});
   CHECK(clamped.claims.empty());
 }

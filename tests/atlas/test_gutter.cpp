@@ -167,7 +167,7 @@ TEST_CASE("just touched texels and rings are filled, nothing else changes", "[gu
         bool near = false;
         for (int v = y - rings; v <= y + rings; ++v)
           for (int u = x - rings; u <= x + rings; ++u)
-            near = near || map.coverage[map.texel({u, v})] != Coverage::none;
+            near = near || map.coverage[map.tiles[0].texel({u, v})] != Coverage::none;
         const bool expected = near && map.coverage[at] != Coverage::covered;
         REQUIRE((set.count(at) == 1) == expected);
         if (expected)
@@ -190,7 +190,7 @@ TEST_CASE("look-ups anywhere on charts see only covered and filled texels", "[gu
       double r = unit(random), s = i % 2 ? unit(random) : 0;  // half of them on edges
       if (r + s > 1) r = 1 - r, s = 1 - s;
       float value = 0;
-      bilinear(image, map.wrap, uv[0] + r * (uv[1] - uv[0]) + s * (uv[2] - uv[0]), &value);
+      bilinear(image, map.tiles[0].wrap, uv[0] + r * (uv[1] - uv[0]) + s * (uv[2] - uv[0]), &value);
       REQUIRE(std::isfinite(value));
     }
   }

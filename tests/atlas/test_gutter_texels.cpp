@@ -15,9 +15,9 @@ namespace {
 bool near_chart(const TexelMap& map, int x, int y, int rings) {
   for (int v = y - rings; v <= y + rings; ++v)
     for (int u = x - rings; u <= x + rings; ++u) {
-      const bool inside = u >= 0 && v >= 0 && u < map.width && v < map.height;
-      if (map.wrap == Wrap::clamp && !inside) continue;
-      if (map.coverage[map.texel({u, v})] != Coverage::none) return true;
+      const bool inside = u >= 0 && v >= 0 && u < map.tiles[0].width && v < map.tiles[0].height;
+      if (map.tiles[0].wrap == Wrap::clamp && !inside) continue;
+      if (map.coverage[map.tiles[0].texel({u, v})] != Coverage::none) return true;
     }
   return false;
 }
@@ -31,9 +31,9 @@ TEST_CASE("the gutter is what the rings around charts add to them", "[gutter_tex
     for (const int rings : {0, 1, 2, 5}) {
       const TexelMap map = make_texel_map(mesh, 61, 53, {wrap, {}});
       std::vector<Index> expected;
-      for (int y = 0; y < map.height; ++y)
-        for (int x = 0; x < map.width; ++x) {
-          const Index texel = map.texel({x, y});
+      for (int y = 0; y < map.tiles[0].height; ++y)
+        for (int x = 0; x < map.tiles[0].width; ++x) {
+          const Index texel = map.tiles[0].texel({x, y});
           if (map.coverage[texel] != Coverage::covered && near_chart(map, x, y, rings))
             expected.push_back(texel);
         }

@@ -126,7 +126,7 @@ TEST_CASE("a real atlas of repeated textures is claimed as by the definition",
   for (Index f = 0, i = 0; f < mesh.faces.size(); ++f)
     for (; i < map.face_offsets[f + 1]; ++i) {
       REQUIRE(own.points[i].face == f);
-      REQUIRE(own.texels[i] == map.texel(map.claims[i]));
+      REQUIRE(own.texels[i] == map.tiles[0].texel(map.claims[i]));
     }
 }
 
@@ -135,11 +135,11 @@ TEST_CASE("a UV beyond the image falls on the repeated or on the nearest texel",
   const TexelMap repeated = make_texel_map(mesh, 10, 5);
   const TexelMap clamped = make_texel_map(mesh, 10, 5, {Wrap::clamp, {}});
   for (const TexelMap* map : {&repeated, &clamped}) {
-    CHECK(map->texel_at({0.25, 0.9}) == 2);
-    CHECK(map->texel_at({0.25, 0.1}) == 42);
+    CHECK(map->tiles[0].texel_at({0.25, 0.9}) == 2);
+    CHECK(map->tiles[0].texel_at({0.25, 0.1}) == 42);
   }
-  CHECK(repeated.texel_at({1.25, -0.1}) == 2);
-  CHECK(clamped.texel_at({1.25, -0.1}) == 49);
+  CHECK(repeated.tiles[0].texel_at({1.25, -0.1}) == 2);
+  CHECK(clamped.tiles[0].texel_at({1.25, -0.1}) == 49);
 }
 
 TEST_CASE("texels are crowded where charts leave no free texel between them", "[texel_map]") {

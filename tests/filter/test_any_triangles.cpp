@@ -272,7 +272,8 @@ TEST_CASE("over a spine the gutter goes on into the page that lies straight ahea
   for (Index f = 0; f < book.faces.size(); ++f)
     for (Index k = map.face_offsets[f]; k < map.face_offsets[f + 1]; ++k) {
       const Vec3 p = book.position({f, map.barycentric(f, map.claims[k])});
-      texture.texel(map.texel(map.claims[k]))[0] = float(std::abs(p.z()) > 1e-9 ? 3 : p.x());
+      texture.texel(map.tiles[0].texel(map.claims[k]))[0] =
+          float(std::abs(p.z()) > 1e-9 ? 3 : p.x());
     }
   const double texel = 1 / (192 * (1 - 4 * kChartMargin) / 3);  // mesh units
   const auto filled = fill_gutter(book, map, 2, texture);

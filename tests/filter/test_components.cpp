@@ -19,7 +19,7 @@ Image repaint(const TriangleMesh& mesh, const Image& texture, Index component) {
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     if (components.of_face[f] != component) continue;
     for (Index k = map.face_offsets[f]; k < map.face_offsets[f + 1]; ++k) {
-      float* const texel = image.texel(map.texel(map.claims[k]));
+      float* const texel = image.texel(map.tiles[0].texel(map.claims[k]));
       for (int c = 0; c < image.channels; ++c) texel[c] = 1 - texel[c];
     }
   }
@@ -35,7 +35,7 @@ double difference(const TriangleMesh& mesh, const Image& a, const Image& b, Inde
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     if (components.of_face[f] != component) continue;
     for (Index k = map.face_offsets[f]; k < map.face_offsets[f + 1]; ++k, ++texels) {
-      const Index t = map.texel(map.claims[k]);
+      const Index t = map.tiles[0].texel(map.claims[k]);
       for (int c = 0; c < a.channels; ++c)
         worst = std::max(worst, std::abs(double(a.texel(t)[c]) - b.texel(t)[c]));
     }

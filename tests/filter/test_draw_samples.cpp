@@ -17,7 +17,7 @@ struct Drawn {
 
 Drawn draw(const TriangleMesh& mesh, const FilterOptions& options) {
   Drawn out;
-  out.setup = set_up_filter(mesh, make_image(96, 72, 1), options);
+  out.setup = set_up_filter(mesh, one_texture(make_image(96, 72, 1), options), options);
   const NodeSurface surface =
       refine(out.setup.mesh, out.setup.cleaning, refinement_for(out.setup, out.setup.lengths));
   out.samples = draw_samples(out.setup, surface, options, {});
@@ -62,14 +62,14 @@ TEST_CASE("colours are the texture's own where alpha comes last, else copied", "
   for (std::size_t k = 0; k < 6; ++k) texture.pixels[k] = float(k);
   std::vector<float> packed;
   texture.alpha_channel = 2;
-  const Colours own = gather_colours(texture, true, packed);
+  const Colours own = gather_colours(one_texture(texture, {}), true, packed);
   CHECK(own.values == texture.pixels.data());
   CHECK(own.channels == 2);
   CHECK(own.range_channels == 2);
   CHECK(own.stride == 3);
   CHECK(packed.empty());
   texture.alpha_channel = 0;
-  const Colours copied = gather_colours(texture, false, packed);
+  const Colours copied = gather_colours(one_texture(texture, {}), false, packed);
   CHECK(packed == std::vector<float>{1, 2, 4, 5});
   CHECK(copied.values == packed.data());
   CHECK(copied.range_channels == 0);

@@ -107,7 +107,7 @@ double psnr_away(const TriangleMesh& mesh, const Image& a, const Image& b, const
       const Vec3 p = mesh.position(SurfacePoint{f, map.barycentric(f, map.claims[i])});
       if ((p - from).norm() < away) continue;
       for (int c = 0; c < a.channels; ++c, ++values) {
-        const Index texel = map.texel(map.claims[i]);
+        const Index texel = map.tiles[0].texel(map.claims[i]);
         const double d = double(a.texel(texel)[c]) - double(b.texel(texel)[c]);
         squared += d * d;
       }

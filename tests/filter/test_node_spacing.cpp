@@ -34,8 +34,9 @@ TEST_CASE("nodes are wanted only where texels are", "[spacing]") {
   FilterOptions options;
   options.faces.assign(mesh.faces.size(), false);
   options.faces[0] = true;
-  const PreparedMesh some = prepare_mesh(mesh, make_image(64, 64, 1), options);
-  const PreparedMesh all = prepare_mesh(mesh, make_image(64, 64, 1), {});
+  const PreparedMesh some =
+      prepare_mesh(mesh, one_texture(make_image(64, 64, 1), options), options);
+  const PreparedMesh all = prepare_mesh(mesh, one_texture(make_image(64, 64, 1), {}), {});
   WorkingPlan plan;
   plan.sigma_spatial = plan.curved_spacing = plan.finest_spacing = plan.node_spacing = 0.01;
   plan.radius = 0.025;
@@ -53,7 +54,7 @@ TEST_CASE("nodes are wanted only where texels are", "[spacing]") {
 double longest_useful(double corner) {
   TriangleMesh mesh = make_plane(8, 8);
   mesh.positions[0] = {-corner, -corner, 0};
-  const FilterSetup setup = set_up_filter(mesh, make_image(64, 64, 1), {});
+  const FilterSetup setup = set_up_filter(mesh, one_texture(make_image(64, 64, 1), {}), {});
   const std::vector<double>& useful = setup.refinement.least_useful;
   return *std::max_element(useful.begin(), useful.end()) / setup.lengths.radius;
 }

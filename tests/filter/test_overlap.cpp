@@ -39,7 +39,8 @@ Samples samples_of(const TexelMap& map) {
   samples.face_offsets = map.face_offsets;
   for (std::size_t f = 0; f + 1 < map.face_offsets.size(); ++f) {
     for (Index k = map.face_offsets[f]; k < map.face_offsets[f + 1]; ++k) {
-      samples.samples.push_back({map.texel(map.claims[k]), 0, 0, float(map.texel_area[f])});
+      samples.samples.push_back(
+          {map.tiles[0].texel(map.claims[k]), 0, 0, float(map.texel_area[f])});
     }
   }
   return samples;
@@ -48,7 +49,7 @@ Samples samples_of(const TexelMap& map) {
 TEST_CASE("texels that only one place claims leave nothing to decide", "[overlap]") {
   const TexelMap map = make_texel_map(make_plane(1, 1), kSide, kSide);
   for (const Overlap overlap : {Overlap::average, Overlap::first, Overlap::error}) {
-    const OverlapPolicy policy(overlap, map);
+    const OverlapPolicy policy(overlap, map, {});
     CHECK(policy.texels().empty());
     CHECK(policy.warning().empty());
     CHECK_FALSE(policy.first_only());
@@ -60,7 +61,7 @@ TEST_CASE("each policy tells what becomes of texels that two places claim", "[ov
   const TexelMap map = make_texel_map(two_on_one_chart(), kSide, kSide);
   const std::string what =
       "2304 texels are claimed by several places of the surface, the first at column 0, row 0";
-  const OverlapPolicy average(Overlap::average, map), first(Overlap::first, map);
+  const OverlapPolicy average(Overlap::average, map, {}), first(Overlap::first, map, {});
   CHECK(average.texels().size() == kSide * kSide);
   CHECK(average.shares());
   CHECK_FALSE(average.first_only());
@@ -69,8 +70,8 @@ TEST_CASE("each policy tells what becomes of texels that two places claim", "[ov
   CHECK(first.first_only());
   CHECK_FALSE(first.shares());
   CHECK(first.warning() == what + "; they get the first face's result (overlap=first)");
-  CHECK_THROWS_WITH(OverlapPolicy(Overlap::error, map), "overlap=error: " + what);
-  CHECK_THROWS_AS(OverlapPolicy(Overlap::error, map), InputError);
+  CHECK_THROWS_WITH(OverlapPolicy(Overlap::error, map, {}), "overlap=error: " + what);
+  CHECK_THROWS_AS(OverlapPolicy(Overlap::error, map, {}), InputError);
 }
 
 TEST_CASE("the first claims are those of the faces that come first, each texel once", "[overlap]") {
@@ -87,9 +88,9 @@ TEST_CASE("the first claims are those of the faces that come first, each texel o
 TEST_CASE("shared results are merged by area, and only where the policy says so", "[overlap]") {
   const TexelMap map = make_texel_map(two_on_one_chart(), kSide, kSide);
   const Samples all = samples_of(map), few = samples_of(first_claims(map));
-  CHECK(SharedResults(OverlapPolicy(Overlap::first, map), few, 2).targets().empty());
+  CHECK(SharedResults(OverlapPolicy(Overlap::first, map, {}), few, 2).targets().empty());
 
-  SharedResults shared(OverlapPolicy(Overlap::average, map), all, 2);
+  SharedResults shared(OverlapPolicy(Overlap::average, map, {}), all, 2);
   REQUIRE(shared.targets().size() == all.samples.size());
   for (std::size_t k = 0; k < all.samples.size(); ++k) {
     // 1 on the small square and 6 on the large one, of four times the area: 5 on average.

@@ -35,7 +35,7 @@ TEST_CASE("errors name faces by their numbers in the mesh as given", "[prepare]"
   mesh.uvs.back() = {std::numeric_limits<double>::quiet_NaN(), 0};
   CHECK_THROWS_WITH(plan_filter(mesh, texture, {}), "face 2: its UVs are not finite");
   try {
-    prepare_mesh(mesh, texture, {});
+    prepare_mesh(mesh, one_texture(texture, {}), {});
     FAIL("nothing was thrown");
   } catch (const FaceError<InputError>& error) {
     CHECK(error.face() == 2);
@@ -48,7 +48,7 @@ TEST_CASE("the faces chosen are those of the mesh as given", "[prepare]") {
   const TriangleMesh mesh = degenerate_face_first();
   FilterOptions options;
   options.faces = {true, false, true};
-  const PreparedMesh prepared = prepare_mesh(mesh, texture, options);
+  const PreparedMesh prepared = prepare_mesh(mesh, one_texture(texture, options), options);
   REQUIRE(prepared.cleaning.kept == std::vector<Index>{1, 2});
   CHECK(prepared.map.texel_area[0] == 0);
   CHECK(prepared.map.texel_area[1] > 0);
@@ -60,7 +60,7 @@ TEST_CASE("the diagonal is between a half and one in working units", "[prepare]"
   for (const double scale : {1e-12, 0.3, 1.0, 5e9}) {
     TriangleMesh mesh = make_plane(2, 3);
     for (Vec3& p : mesh.positions) p *= scale;
-    const PreparedMesh prepared = prepare_mesh(mesh, make_image(16, 16, 1), {});
+    const PreparedMesh prepared = prepare_mesh(mesh, one_texture(make_image(16, 16, 1), {}), {});
     CHECK(prepared.mesh.diagonal() > 0.5);
     CHECK(prepared.mesh.diagonal() <= 1);
     CHECK(prepared.mesh.diagonal() * prepared.unit == Approx(mesh.diagonal()));
@@ -85,7 +85,7 @@ TEST_CASE("meshes that no texel lies on are refused with the reason", "[prepare]
 TEST_CASE("charts beside the image's own tile are mentioned", "[prepare]") {
   TriangleMesh mesh = make_plane(1, 1);
   for (Vec2& uv : mesh.uvs) uv.x() += 1;
-  const PreparedMesh prepared = prepare_mesh(mesh, make_image(16, 16, 1), {});
+  const PreparedMesh prepared = prepare_mesh(mesh, one_texture(make_image(16, 16, 1), {}), {});
   REQUIRE(prepared.warnings.size() == 1);
   CHECK(prepared.warnings[0] ==
         "2 faces with UVs outside [0,1]: the image is repeated there, or cut off with wrap=clamp");

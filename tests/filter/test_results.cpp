@@ -29,7 +29,7 @@ TEST_CASE("the range is that of the covered texels' finite values, per colour ch
   }
   const TexelMap map = left_half();
   REQUIRE(map.claims.size() == 4);
-  const ValueRange range = value_range(image, map, nullptr);
+  const ValueRange range = value_range(texels_of(std::as_const(image)), map, nullptr);
   CHECK(range.lowest == std::vector<float>{0.25F});
   CHECK(range.highest == std::vector<float>{0.75F});
   CHECK(range.extent() == 0.5);
@@ -37,12 +37,13 @@ TEST_CASE("the range is that of the covered texels' finite values, per colour ch
   // A sample beside the covered texels counts as well.
   Samples sources;
   sources.samples.push_back({2, 0, 0, 1});
-  CHECK(value_range(image, map, &sources).highest == std::vector<float>{9});
+  CHECK(value_range(texels_of(std::as_const(image)), map, &sources).highest ==
+        std::vector<float>{9});
 }
 
 TEST_CASE("an image of one colour has range 1", "[results]") {
   const Image image = make_image(4, 2, 3);
-  CHECK(value_range(image, left_half(), nullptr).extent() == 1);
+  CHECK(value_range(texels_of(std::as_const(image)), left_half(), nullptr).extent() == 1);
 }
 
 TEST_CASE("results are clamped to the range and never replace values that are not finite",
@@ -52,7 +53,7 @@ TEST_CASE("results are clamped to the range and never replace values that are no
   image.texel(1)[1] = kInfinity;
   Samples targets;
   for (const Index texel : {0U, 1U, 4U}) targets.samples.push_back({texel, 0, 0, 1});
-  Results results(OverlapPolicy(), targets, {{0.25F}, {0.75F}}, image);
+  Results results(OverlapPolicy(), targets, {{0.25F}, {0.75F}}, texels_of(image));
   const float values[] = {0.5F, 0.6F, 0.8F};
   results.store(0, 3, values);
   results.merge_shared();

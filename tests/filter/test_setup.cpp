@@ -88,14 +88,15 @@ TEST_CASE("plans of more nodes or samples than integers count say that they are 
 TEST_CASE("spacings are set for Poisson samples alone", "[setup]") {
   const TriangleMesh mesh = make_cube();
   const Image texture = make_image(96, 72, 3);
-  const FilterSetup texel = set_up_filter(mesh, texture, options_for(SampleKind::texel));
+  const FilterSetup texel =
+      set_up_filter(mesh, one_texture(texture, {}), options_for(SampleKind::texel));
   CHECK_FALSE(texel.graded);
   CHECK(texel.lengths.sample_spacing == 0);
   CHECK(texel.mesh_plan.samples == texel.mesh_plan.texels);
   FilterOptions options = options_for(SampleKind::poisson);
-  CHECK(set_up_filter(mesh, texture, options).graded);
+  CHECK(set_up_filter(mesh, one_texture(texture, {}), options).graded);
   options.r_coef = 0.01;
-  const FilterSetup poisson = set_up_filter(mesh, texture, options);
+  const FilterSetup poisson = set_up_filter(mesh, one_texture(texture, {}), options);
   CHECK_FALSE(poisson.graded);
   CHECK(poisson.mesh_plan.sample_spacing == Approx(0.01 * mesh.mean_edge_length()));
   CHECK(poisson.mesh_plan.largest_sample_spacing == poisson.mesh_plan.sample_spacing);

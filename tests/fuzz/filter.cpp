@@ -123,7 +123,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   FilterOptions options = fuzz::make_options(input, mesh.faces.size());
   options.threads = 1;
   const Outcome one = try_filter(mesh, texture, options);
-  if (one.image) check_result(set_up_filter(mesh, texture, options), options, texture, *one.image);
+  if (one.image)
+    check_result(set_up_filter(mesh, one_texture(texture, options), options), options, texture,
+                 *one.image);
   if (!twice || !one.in_time) return 0;
   options.threads = 2;
   const Outcome two = try_filter(mesh, texture, options);

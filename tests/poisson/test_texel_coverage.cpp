@@ -24,8 +24,8 @@ std::size_t missed(const TriangleMesh& mesh, const TexelMap& map,
       left.insert({map.chart_of_face[f], map.claims[c].x, map.claims[c].y});
   for (const SurfacePoint& s : samples) {
     const Vec2 uv = mesh.uv(s);
-    left.erase({map.chart_of_face[s.face], int(std::floor(uv.x() * map.width)),
-                int(std::floor((1 - uv.y()) * map.height))});
+    left.erase({map.chart_of_face[s.face], int(std::floor(uv.x() * map.tiles[0].width)),
+                int(std::floor((1 - uv.y()) * map.tiles[0].height))});
   }
   return left.size();
 }

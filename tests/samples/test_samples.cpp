@@ -35,13 +35,13 @@ TEST_CASE("every claim becomes one sample in the node face that holds it", "[sam
         found.emplace_back(f, samples.samples[i]);
       }
     }
-    std::vector<std::pair<Index, Sample>> of_texel(static_cast<std::size_t>(map.width * map.height),
-                                                   {kNone, {}});
+    std::vector<std::pair<Index, Sample>> of_texel(
+        static_cast<std::size_t>(map.tiles[0].width * map.tiles[0].height), {kNone, {}});
     for (const auto& entry : found) of_texel[entry.second.texel] = entry;
     for (Index f = 0; f < mesh.faces.size(); ++f) {
       for (Index c = map.face_offsets[f]; c < map.face_offsets[f + 1]; ++c) {
         const NodePoint at = surface.overlay.locate({f, map.barycentric(f, map.claims[c])});
-        const auto& [face, sample] = of_texel[map.texel(map.claims[c])];
+        const auto& [face, sample] = of_texel[map.tiles[0].texel(map.claims[c])];
         REQUIRE(face != kNone);
         CHECK(sample.area == Approx(map.texel_area[f]));
         if (face == at.face) {
@@ -100,7 +100,7 @@ TEST_CASE("samples that share their texels stand for the area of each texel", "[
     }
     for (Index f = 0; f < mesh.faces.size(); ++f) {
       for (Index c = map.face_offsets[f]; c < map.face_offsets[f + 1]; ++c) {
-        own[map.texel(map.claims[c])] += map.texel_area[f];
+        own[map.tiles[0].texel(map.claims[c])] += map.texel_area[f];
       }
     }
     REQUIRE(shared.size() == own.size());

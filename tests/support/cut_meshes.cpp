@@ -61,13 +61,13 @@ TriangleMesh turned_cube(Index n) {
 
 Image paint(const TriangleMesh& mesh, const TexelMap& map,
             const std::function<double(const Vec3&)>& function, float rest) {
-  Image image = make_image(map.width, map.height, 1);
+  Image image = make_image(map.tiles[0].width, map.tiles[0].height, 1);
   image.pixels.assign(image.pixels.size(), rest);
   for (Index f = 0; f < mesh.faces.size(); ++f)
     for (Index i = map.face_offsets[f]; i < map.face_offsets[f + 1]; ++i) {
       const Vec3 b = map.barycentric(f, map.claims[i]);
       const auto p = mesh.corners(f);
-      *image.texel(map.texel(map.claims[i])) =
+      *image.texel(map.tiles[0].texel(map.claims[i])) =
           float(function(b[0] * p[0] + b[1] * p[1] + b[2] * p[2]));
     }
   return image;

@@ -27,7 +27,7 @@ void check_same_texels(const TriangleMesh& mesh, int width, int height, Wrap wra
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     for (Index k = map.face_offsets[f]; k < map.face_offsets[f + 1]; ++k) {
       const SurfacePoint& point = own.points[k];
-      places += point.face != f || own.texels[k] != map.texel(map.claims[k]) ||
+      places += point.face != f || own.texels[k] != map.tiles[0].texel(map.claims[k]) ||
                 (point.barycentric - map.barycentric(f, map.claims[k])).norm() > 1e-7;
       areas += std::abs(own.areas[k] / map.texel_area[f] - 1) > 1e-9;
       Index& chart = chart_of[map.chart_of_face[f]];

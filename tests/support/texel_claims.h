@@ -51,7 +51,7 @@ inline TriangleMesh random_square(unsigned seed, int splits, int lattice) {
 /// How often each texel is claimed.
 inline std::vector<int> claim_counts(const TexelMap& map) {
   std::vector<int> counts(map.coverage.size(), 0);
-  for (const auto& claim : map.claims) ++counts[map.texel(claim)];
+  for (const auto& claim : map.claims) ++counts[map.tiles[0].texel(claim)];
   return counts;
 }
 

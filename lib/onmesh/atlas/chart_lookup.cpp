@@ -18,28 +18,24 @@ std::pair<int, int> centres_near(double coordinate, double reach) {
 
 }  // namespace
 
-ChartLookup::ChartLookup(const TexelMap& map, const UnfoldedWalk& walk, const Image& image)
-    : map_(map), walk_(walk), image_(image), channels_(image.range_channels()) {}
+ChartLookup::ChartLookup(const TexelMap& map, const UnfoldedWalk& walk, const TexelValues& values)
+    : map_(map), walk_(walk), values_(values) {}
 
 bool ChartLookup::readable(Index texel) const {
   if (map_.coverage[texel] != Coverage::covered) return false;
-  const float* values = image_.texel(texel);
-  return std::all_of(channels_.begin(), channels_.end(),
+  const float* values = values_[texel];
+  return std::all_of(channels().begin(), channels().end(),
                      [&](int c) { return std::isfinite(values[c]); });
-}
-
-bool ChartLookup::in_image(int x, int y) const {
-  return map_.wrap == Wrap::repeat || (x >= 0 && y >= 0 && x < map_.width && y < map_.height);
 }
 
 /// The weighted sum of the texels' values over `sum`, within their range.
 void ChartLookup::blend(std::span<const Index> texels, std::span<const double> weights, double sum,
                         float* values) const {
-  for (const int c : channels_) {
+  for (const int c : channels()) {
     double value = 0;
     float low = std::numeric_limits<float>::infinity(), high = -low;
     for (std::size_t i = 0; i < texels.size(); ++i) {
-      const float v = image_.texel(texels[i])[c];
+      const float v = values_[texels[i]][c];
       value += weights[i] * double(v);
       low = std::min(low, v);
       high = std::max(high, v);
@@ -49,6 +45,7 @@ void ChartLookup::blend(std::span<const Index> texels, std::span<const double> w
 }
 
 bool ChartLookup::bilinear(const LaidFace& laid, const Vec2& pixel, float* values) const {
+  const TexelTile& tile = map_.tile_of(laid.face);
   const int x0 = int(std::floor(pixel.x() - 0.5)), y0 = int(std::floor(pixel.y() - 0.5));
   const double fx = pixel.x() - 0.5 - x0, fy = pixel.y() - 0.5 - y0;
   std::array<Index, 4> texels{};
@@ -59,8 +56,8 @@ bool ChartLookup::bilinear(const LaidFace& laid, const Vec2& pixel, float* value
     const int x = x0 + i % 2, y = y0 + i / 2;
     const double weight = (i % 2 ? fx : 1 - fx) * (i / 2 ? fy : 1 - fy);
     if (weight < 1e-9) continue;
-    if (!in_image(x, y)) return false;
-    const Index texel = map_.texel({x, y});
+    if (!tile.holds({x, y})) return false;
+    const Index texel = tile.texel({x, y});
     if (!readable(texel) || !walk_.within_chart(laid, pixel, {x + 0.5, y + 0.5})) return false;
     texels[count] = texel;
     weights[count++] = weight;
@@ -72,12 +69,13 @@ bool ChartLookup::bilinear(const LaidFace& laid, const Vec2& pixel, float* value
 
 void ChartLookup::gather(const LaidFace& laid, const Vec2& from, const Vec2& pixel,
                          const PixelFrame& frame, std::vector<Support>& supports) const {
+  const TexelTile& tile = map_.tile_of(laid.face);
   const auto [x0, x1] = centres_near(pixel.x(), kFitReach);
   const auto [y0, y1] = centres_near(pixel.y(), kFitReach);
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) {
-      if (!in_image(x, y)) continue;
-      const Index texel = map_.texel({x, y});
+      if (!tile.holds({x, y})) continue;
+      const Index texel = tile.texel({x, y});
       if (!readable(texel)) continue;
       const Vec2 centre{x + 0.5, y + 0.5};
       const auto holder = walk_.within_chart(laid, from, centre);
@@ -131,9 +129,9 @@ bool ChartLookup::fit(const std::vector<Support>& supports, float* values) const
 void ChartLookup::mean(const std::vector<Support>& supports, float* values) const {
   double sum = 0;
   for (const Support& s : supports) sum += s.weight;
-  for (const int c : channels_) {
+  for (const int c : channels()) {
     double value = 0;
-    for (const Support& s : supports) value += s.weight / sum * double(image_.texel(s.texel)[c]);
+    for (const Support& s : supports) value += s.weight / sum * double(values_[s.texel][c]);
     values[c] = float(value);
   }
 }

@@ -6,7 +6,7 @@
 
 #include "onmesh/atlas/texel_map.h"
 #include "onmesh/atlas/unfolded_walk.h"
-#include "onmesh/image/image.h"
+#include "onmesh/image/texel_values.h"
 
 namespace onmesh {
 
@@ -27,11 +27,11 @@ struct PixelFrame {
 /// reached over a seam. Texels with a value that is not finite do not count.
 class ChartLookup {
  public:
-  /// \pre map, walk and image outlive this
-  ChartLookup(const TexelMap& map, const UnfoldedWalk& walk, const Image& image);
+  /// \pre map, walk and the images outlive this
+  ChartLookup(const TexelMap& map, const UnfoldedWalk& walk, const TexelValues& values);
 
   /// Channels that are looked up: all but alpha.
-  const std::vector<int>& channels() const { return channels_; }
+  const std::vector<int>& channels() const { return values_.range_channels(); }
   /// The texel is covered and its values are finite.
   bool readable(Index texel) const;
 
@@ -59,12 +59,10 @@ class ChartLookup {
  private:
   void blend(std::span<const Index> texels, std::span<const double> weights, double sum,
              float* values) const;
-  bool in_image(int x, int y) const;
 
   const TexelMap& map_;
   const UnfoldedWalk& walk_;
-  const Image& image_;
-  const std::vector<int> channels_;
+  const TexelValues values_;
 };
 
 }  // namespace onmesh

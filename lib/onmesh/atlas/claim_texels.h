@@ -15,7 +15,7 @@ namespace onmesh {
 /// More texels than this are not claimed: offsets have 32 bits.
 inline constexpr double kMostClaims = 2147483648.0;
 
-/// The atlas that a texel map is made from. `map` has its size, texel areas and charts by now.
+/// The atlas that a texel map is made from. `map` has its tiles, texel areas and charts by now.
 struct Atlas {
   const TriangleMesh& mesh;
   TexelMap& map;
@@ -23,15 +23,19 @@ struct Atlas {
   const UvNeighbours& neighbours;
   double tolerance;  ///< pixels
 
-  UvTriangle triangle(Index face) const { return {mesh, face, map.width, map.height, tolerance}; }
-  bool rasterised(Index face) const { return map.texel_area[face] > 0; }
-  /// Limit rows or columns to those that are rasterised: with Wrap::clamp the image's.
-  void clip(std::pair<std::int64_t, std::int64_t>& range, int size) const {
-    if (map.wrap == Wrap::repeat) return;
-    range.first = std::max<std::int64_t>(range.first, 0);
-    range.second = std::min<std::int64_t>(range.second, size);
+  UvTriangle triangle(Index face) const {
+    const TexelTile& tile = map.tile_of(face);
+    return {mesh, face, tile.width, tile.height, tolerance};
   }
+  bool rasterised(Index face) const { return map.texel_area[face] > 0; }
 };
+
+/// Limit rows or columns to those that are rasterised: with Wrap::clamp the tile's.
+inline void clip(const TexelTile& tile, std::pair<std::int64_t, std::int64_t>& range, int size) {
+  if (tile.wrap == Wrap::repeat) return;
+  range.first = std::max<std::int64_t>(range.first, 0);
+  range.second = std::min<std::int64_t>(range.second, size);
+}
 
 /// Some rows of a face: the piece of work.
 struct Strip {

@@ -31,7 +31,7 @@ struct Place {
 
 class GutterFill {
  public:
-  GutterFill(const TriangleMesh& mesh, const TexelMap& map, Image& image);
+  GutterFill(const TriangleMesh& mesh, const TexelMap& map, const TexelValues& values);
   void fill(Index texel, const NearestEdge& nearest) const;
 
  private:
@@ -41,17 +41,17 @@ class GutterFill {
   void copy_nearest_claim(Index face, const Vec2& pixel, float* values) const;
 
   const TexelMap& map_;
-  Image& image_;
+  const TexelValues values_;
   UnfoldedWalk walk_;
   ChartLookup lookup_;
   std::vector<std::pair<Index, TexelClaim>> only_claim_;  ///< per chart: claims, the first of them
 };
 
-GutterFill::GutterFill(const TriangleMesh& mesh, const TexelMap& map, Image& image)
+GutterFill::GutterFill(const TriangleMesh& mesh, const TexelMap& map, const TexelValues& values)
     : map_(map),
-      image_(image),
+      values_(values),
       walk_(mesh, map),
-      lookup_(map, walk_, image),
+      lookup_(map, walk_, values),
       only_claim_(map.charts) {
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     const Index count = map.face_offsets[f + 1] - map.face_offsets[f];
@@ -126,7 +126,7 @@ void GutterFill::limit(const Place& place, const LaidFace& across, float* values
   lookup_.gather(place.laid, place.edge_pixel, mirrored, {place.to_pixel, mirrored}, supports);
   if (supports.empty()) return;
   // At that point, or the mean around it where the chart ends too soon to tell.
-  std::vector<float> inside(std::size_t(image_.channels)), around(inside), seam(inside);
+  std::vector<float> inside(std::size_t(values_.channels())), around(inside), seam(inside);
   lookup_.mean(supports, around.data());
   if (!lookup_.fit(supports, inside.data())) inside = around;
   supports.clear();
@@ -148,8 +148,9 @@ void GutterFill::limit(const Place& place, const LaidFace& across, float* values
 /// The claim nearest to the pixel among those of the first face, going outward from this one over
 /// the chart, that has any.
 void GutterFill::copy_nearest_claim(Index face, const Vec2& pixel, float* values) const {
+  const TexelTile& tile = map_.tile_of(face);  // of the whole chart
   const auto copy = [&](const TexelClaim& claim) {
-    const float* from = image_.texel(map_.texel(claim));
+    const float* from = values_[tile.texel(claim)];
     for (const int c : lookup_.channels()) values[c] = from[c];
   };
   const auto& only = only_claim_[map_.chart_of_face[face]];
@@ -164,7 +165,7 @@ void GutterFill::copy_nearest_claim(Index face, const Vec2& pixel, float* values
     for (Index j = map_.face_offsets[f]; j < map_.face_offsets[f + 1]; ++j) {
       const TexelClaim& claim = map_.claims[j];
       const double d2 = (Vec2(claim.x + 0.5, claim.y + 0.5) - pixel).squaredNorm();
-      if (d2 >= least || !lookup_.readable(map_.texel(claim))) continue;
+      if (d2 >= least || !lookup_.readable(tile.texel(claim))) continue;
       least = d2;
       best = &claim;
     }
@@ -179,7 +180,7 @@ void GutterFill::copy_nearest_claim(Index face, const Vec2& pixel, float* values
 
 void GutterFill::fill(Index texel, const NearestEdge& nearest) const {
   const Place place = look_at(nearest);
-  float* values = image_.texel(texel);
+  float* values = values_[texel];
   if (!continue_surface(place, values))
     return copy_nearest_claim(nearest.face, place.centre, values);
   // The face right across the seam.
@@ -194,11 +195,11 @@ void GutterFill::fill(Index texel, const NearestEdge& nearest) const {
 }  // namespace
 
 std::vector<Index> fill_gutter(const TriangleMesh& mesh, const TexelMap& map, int rings,
-                               Image& image) {
+                               const TexelValues& values) {
   int grown = 0;
   std::vector<Index> gutter = gutter_texels(map, rings, &grown);
   const std::vector<NearestEdge> nearest = nearest_edges(mesh, map, grown, gutter);
-  const GutterFill fill(mesh, map, image);
+  const GutterFill fill(mesh, map, values);
   parallel_over(gutter.size(), [&](std::size_t i) {
     if (nearest[i].face != kNone) fill.fill(gutter[i], nearest[i]);
   });
@@ -207,6 +208,11 @@ std::vector<Index> fill_gutter(const TriangleMesh& mesh, const TexelMap& map, in
     if (nearest[i].face != kNone) gutter[kept++] = gutter[i];
   gutter.resize(kept);
   return gutter;
+}
+
+std::vector<Index> fill_gutter(const TriangleMesh& mesh, const TexelMap& map, int rings,
+                               Image& image) {
+  return fill_gutter(mesh, map, rings, texels_of(image));
 }
 
 }  // namespace onmesh

@@ -5,6 +5,7 @@
 
 #include "onmesh/atlas/texel_map.h"
 #include "onmesh/image/image.h"
+#include "onmesh/image/texel_values.h"
 
 namespace onmesh {
 
@@ -31,8 +32,13 @@ namespace onmesh {
 /// texels than covered and filled ones. Covered texels are read and not changed, nor is any alpha
 /// channel. Rings wrap around the image with Wrap::repeat.
 /// \param rings number of rings, >= 0
-/// \pre mesh, map and image belong together
+/// \param values of the texels of all tiles
+/// \pre mesh, map and images belong together
 /// \return the texels that were filled, ascending
+std::vector<Index> fill_gutter(const TriangleMesh& mesh, const TexelMap& map, int rings,
+                               const TexelValues& values);
+
+/// The same for a map of one tile.
 std::vector<Index> fill_gutter(const TriangleMesh& mesh, const TexelMap& map, int rings,
                                Image& image);
 

@@ -22,23 +22,29 @@ struct BoundaryEdge {
   Vec2 outward;  ///< unit normal
 };
 
-std::vector<BoundaryEdge> boundary_edges(const TriangleMesh& mesh, const TexelMap& map) {
+/// Per tile, in the order of faces.
+std::vector<std::vector<BoundaryEdge>> boundary_edges(const TriangleMesh& mesh,
+                                                      const TexelMap& map) {
   std::vector<bool> used(mesh.faces.size());
   for (Index f = 0; f < used.size(); ++f) used[f] = map.chart_of_face[f] != kNone;
   const UvNeighbours neighbours(mesh, used);
-  const double tolerance = pixel_tolerance(mesh, used, map.width, map.height);
-  std::vector<BoundaryEdge> edges;
+  std::vector<double> tolerances;
+  for (const TexelTile& tile : map.tiles)
+    tolerances.push_back(pixel_tolerance(mesh, used, tile.width, tile.height));
+  std::vector<std::vector<BoundaryEdge>> edges(map.tiles.size());
   for (Index f = 0; f < used.size(); ++f) {
     if (!used[f]) continue;
+    const TexelTile& tile = map.tile_of(f);
+    const auto number = std::size_t(&tile - map.tiles.data());
     for (int k = 0; k < 3; ++k) {
       bool inner = false;
       neighbours.across_edge(f, k, [&](Index) { inner = true; });
       if (inner) continue;
-      const UvTriangle t(mesh, f, map.width, map.height, tolerance);
+      const UvTriangle t(mesh, f, tile.width, tile.height, tolerances[number]);
       const auto& e = t.edges[std::size_t(k)];
-      edges.push_back({f, map.chart_of_face[f], k, t.corners[std::size_t(k)],
-                       t.corners[std::size_t((k + 1) % 3)],
-                       e.sign * Vec2(e.direction.y(), -e.direction.x())});
+      edges[number].push_back({f, map.chart_of_face[f], k, t.corners[std::size_t(k)],
+                               t.corners[std::size_t((k + 1) % 3)],
+                               e.sign * Vec2(e.direction.y(), -e.direction.x())});
     }
   }
   return edges;
@@ -64,36 +70,36 @@ struct EdgeInRow {
   std::int32_t row;
 };
 
-/// Boundary edges by the rows of the image in which centres may be within reach of them.
+/// Boundary edges of a tile by its rows in which centres may be within reach of them.
 class EdgeRows {
  public:
-  EdgeRows(const std::vector<BoundaryEdge>& edges, const TexelMap& map, double reach)
-      : offsets_(std::size_t(map.height) + 1, 0) {
+  EdgeRows(const std::vector<BoundaryEdge>& edges, const TexelTile& tile, double reach)
+      : offsets_(std::size_t(tile.height) + 1, 0) {
     // Counted first, then filled in.
-    visit(edges, map, reach, [&](std::size_t row, const EdgeInRow&) { ++offsets_[row + 1]; });
+    visit(edges, tile, reach, [&](std::size_t row, const EdgeInRow&) { ++offsets_[row + 1]; });
     for (std::size_t r = 1; r < offsets_.size(); ++r) offsets_[r] += offsets_[r - 1];
     entries_.resize(offsets_.back());
     std::vector<std::size_t> next(offsets_.begin(), offsets_.end() - 1);
-    visit(edges, map, reach,
+    visit(edges, tile, reach,
           [&](std::size_t row, const EdgeInRow& entry) { entries_[next[row]++] = entry; });
   }
 
-  /// \param row of the image
+  /// \param row of the tile
   std::span<const EdgeInRow> at(std::size_t row) const {
     return std::span(entries_).subspan(offsets_[row], offsets_[row + 1] - offsets_[row]);
   }
 
  private:
   template <class Visit>
-  static void visit(const std::vector<BoundaryEdge>& edges, const TexelMap& map, double reach,
+  static void visit(const std::vector<BoundaryEdge>& edges, const TexelTile& tile, double reach,
                     const Visit& visit) {
-    const int height = map.height;
+    const int height = tile.height;
     for (Index e = 0; e < edges.size(); ++e) {
       auto first =
           std::int64_t(std::ceil(std::min(edges[e].from.y(), edges[e].to.y()) - reach - 0.5));
       auto last =
           std::int64_t(std::floor(std::max(edges[e].from.y(), edges[e].to.y()) + reach - 0.5));
-      if (map.wrap == Wrap::clamp) {
+      if (tile.wrap == Wrap::clamp) {
         first = std::max<std::int64_t>(first, 0);
         last = std::min<std::int64_t>(last, height - 1);
       }
@@ -112,8 +118,10 @@ class RowSearch {
   /// \param base index of the row's first texel
   /// \param gutter texels of the row, ascending
   /// \param nearest one per gutter texel
-  RowSearch(const TexelMap& map, Index base, std::span<const Index> gutter, NearestEdge* nearest)
+  RowSearch(const TexelMap& map, const TexelTile& tile, Index base, std::span<const Index> gutter,
+            NearestEdge* nearest)
       : map_(map),
+        tile_(tile),
         base_(base),
         gutter_(gutter),
         nearest_(nearest),
@@ -122,9 +130,9 @@ class RowSearch {
   /// Compare the edge with all texels that it may be within reach of, one run of columns per tile.
   /// \param row before wrapping
   void offer(const BoundaryEdge& e, std::int32_t row, double reach) {
-    const std::int64_t width = map_.width;
+    const std::int64_t width = tile_.width;
     auto [low, high] = columns_near(e, row + 0.5, reach);
-    if (map_.wrap == Wrap::clamp) {
+    if (tile_.wrap == Wrap::clamp) {
       low = std::max(low, 0.0);
       high = std::min(high, double(width) - 1.0);
     }
@@ -161,48 +169,51 @@ class RowSearch {
   }
 
   const TexelMap& map_;
+  const TexelTile& tile_;
   const Index base_;
   const std::span<const Index> gutter_;
   NearestEdge* const nearest_;
   std::vector<double> outwardness_;  // how far each texel lies beyond the line of its nearest edge
 };
 
-/// Call visit(i) for the 8-neighbours of a texel that are in the image or, repeated, around it.
+/// The tile that a texel is in.
+const TexelTile& tile_at(const TexelMap& map, Index texel) {
+  auto next = map.tiles.begin() + 1;
+  while (next != map.tiles.end() && next->first <= texel) ++next;
+  return *(next - 1);
+}
+
+/// Call visit(i) for the 8-neighbours of a texel that are in its tile or, repeated, around it.
 template <class Visit>
-void visit_neighbours(const TexelMap& map, Index texel, const Visit& visit) {
-  const int width = map.width, height = map.height;
-  const int x = int(texel % Index(width)), y = int(texel / Index(width));
+void visit_neighbours(const TexelTile& tile, Index texel, const Visit& visit) {
+  const auto width = Index(tile.width);
+  const int x = int((texel - tile.first) % width), y = int((texel - tile.first) / width);
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
-      int u = x + dx, v = y + dy;
-      if (map.wrap == Wrap::repeat) {
-        u = (u + width) % width;
-        v = (v + height) % height;
-      } else if (u < 0 || v < 0 || u >= width || v >= height) {
-        continue;
-      }
-      visit(Index(v) * Index(width) + Index(u));
+      const TexelClaim neighbour{x + dx, y + dy};
+      if (tile.holds(neighbour)) visit(tile.texel(neighbour));
     }
 }
 
-/// Every texel of a chart that may have a neighbour without one.
-std::vector<Index> border_texels(const std::vector<Coverage>& mask, Index width) {
-  std::vector<Index> border;
-  for (Index i = 0; i < mask.size(); ++i) {
-    if (mask[i] == Coverage::none) continue;
-    const Index x = i % width;
-    const bool inside = x > 0 && x + 1 < width && i > width &&
-                        std::size_t(i) + std::size_t(width) + 1 < mask.size();
-    if (inside) {  // most texels: look at the three rows without any wrapping
-      const Coverage* c = &mask[i];
-      const auto free = [&](const Coverage* r) {
-        return r[-1] == Coverage::none || r[0] == Coverage::none || r[1] == Coverage::none;
-      };
-      if (!free(c - width) && !free(c) && !free(c + width)) continue;
+/// Every texel of a tile that is on a chart and may have a neighbour on none.
+void add_border_texels(const std::vector<Coverage>& mask, const TexelTile& tile,
+                       std::vector<Index>& border) {
+  const auto width = Index(tile.width), height = Index(tile.height);
+  for (Index y = 0; y < height; ++y) {
+    for (Index x = 0; x < width; ++x) {
+      const Index i = tile.first + y * width + x;
+      if (mask[i] == Coverage::none) continue;
+      const bool inside = x > 0 && x + 1 < width && y > 0 && y + 1 < height;
+      if (inside) {  // most texels: look at the three rows without any wrapping
+        const Coverage* c = &mask[i];
+        const auto free = [&](const Coverage* r) {
+          return r[-1] == Coverage::none || r[0] == Coverage::none || r[1] == Coverage::none;
+        };
+        if (!free(c - width) && !free(c) && !free(c + width)) continue;
+      }
+      border.push_back(i);
     }
-    border.push_back(i);
   }
-  return border;
 }
 
 }  // namespace
@@ -214,12 +225,14 @@ std::vector<Index> gutter_texels(const TexelMap& map, int rings, int* grown) {
     if (mask[i] == Coverage::touched) gutter.push_back(i);
 
   std::vector<Index> front;
-  if (rings > 0) front = border_texels(mask, Index(map.width));
+  if (rings > 0) {
+    for (const TexelTile& tile : map.tiles) add_border_texels(mask, tile, front);
+  }
   int ring = 0;
   for (; ring < rings && !front.empty(); ++ring) {
     std::vector<Index> found;
     for (const Index texel : front)
-      visit_neighbours(map, texel, [&](Index n) {
+      visit_neighbours(tile_at(map, texel), texel, [&](Index n) {
         if (mask[n] == Coverage::none) found.push_back(n);
       });
     std::sort(found.begin(), found.end());
@@ -237,18 +250,22 @@ std::vector<NearestEdge> nearest_edges(const TriangleMesh& mesh, const TexelMap&
                                        const std::vector<Index>& gutter) {
   // A touched texel's centre lies within half a diagonal of its chart, every ring adds a diagonal.
   const double reach = std::sqrt(0.5) * (1 + 2 * rings) + 1e-6;
-  const std::vector<BoundaryEdge> edges = boundary_edges(mesh, map);
-  const EdgeRows rows(edges, map, reach);
+  const std::vector<std::vector<BoundaryEdge>> edges = boundary_edges(mesh, map);
   std::vector<NearestEdge> nearest(gutter.size());
-  parallel_over(std::size_t(map.height), [&](std::size_t row) {
-    const Index base = Index(row) * Index(map.width);
-    const auto begin = std::lower_bound(gutter.begin(), gutter.end(), base);
-    const auto end = std::lower_bound(begin, gutter.end(), base + Index(map.width));
-    if (begin == end) return;
-    RowSearch search(map, base, std::span(begin, end),
-                     &nearest[std::size_t(begin - gutter.begin())]);
-    for (const EdgeInRow& entry : rows.at(row)) search.offer(edges[entry.edge], entry.row, reach);
-  });
+  for (std::size_t i = 0; i < map.tiles.size(); ++i) {
+    const TexelTile& tile = map.tiles[i];
+    const EdgeRows rows(edges[i], tile, reach);
+    parallel_over(std::size_t(tile.height), [&](std::size_t row) {
+      const Index base = tile.first + Index(row) * Index(tile.width);
+      const auto begin = std::lower_bound(gutter.begin(), gutter.end(), base);
+      const auto end = std::lower_bound(begin, gutter.end(), base + Index(tile.width));
+      if (begin == end) return;
+      RowSearch search(map, tile, base, std::span(begin, end),
+                       &nearest[std::size_t(begin - gutter.begin())]);
+      for (const EdgeInRow& entry : rows.at(row))
+        search.offer(edges[i][entry.edge], entry.row, reach);
+    });
+  }
   return nearest;
 }
 

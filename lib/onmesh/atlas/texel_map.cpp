@@ -38,14 +38,15 @@ void check(const TriangleMesh& mesh, const std::vector<bool>& used, const TexelM
       throw FaceError<InputError>(f, "its UVs are not finite");
     if ((high - low).maxCoeff() > kMostTiles)
       throw FaceError<InputError>(f, "its UVs span more than 16384 tiles");
+    const TexelTile& tile = map.tile_of(f);
     if (std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()) *
-            std::max(map.width, map.height) >
+            std::max(tile.width, tile.height) >
         kFurthestTexel)
       throw FaceError<InputError>(f, "its UVs lie too far from [0,1]");
     const Vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
-    total += std::abs(cross(a, b)) / 2 * map.width * map.height;
+    if (tile.wrap == Wrap::repeat) total += std::abs(cross(a, b)) / 2 * tile.width * tile.height;
   }
-  if (map.wrap == Wrap::repeat && total > kMostClaims)
+  if (total > kMostClaims)
     throw InputError("the UVs repeat the texture too often: more than 2^31 texels are covered");
 }
 
@@ -76,25 +77,27 @@ void make_transforms(const Atlas& atlas) {
 void make_charts(const Atlas& atlas) {
   std::vector<bool> rasterised(atlas.mesh.faces.size());
   for (Index f = 0; f < rasterised.size(); ++f) rasterised[f] = atlas.rasterised(f);
-  Charts charts = find_charts(atlas.neighbours, atlas.used, rasterised);
+  Charts charts = find_charts(atlas.neighbours, atlas.used, rasterised, atlas.map.tile_of_face);
   atlas.map.chart_of_face = std::move(charts.chart_of_face);
   atlas.map.charts = charts.count;
 }
 
 /// Mark every texel whose square a chart meets.
 void mark_touched(const Atlas& atlas, const std::vector<Strip>& strips) {
-  const std::size_t width = std::size_t(atlas.map.width);
-  atlas.map.coverage.assign(width * std::size_t(atlas.map.height), Coverage::none);
+  const TexelTile& last = atlas.map.tiles.back();
+  atlas.map.coverage.assign(std::size_t(last.first) + last.size(), Coverage::none);
   parallel_over(strips.size(), [&](std::size_t i) {
     const Strip& strip = strips[i];
+    const TexelTile& tile = atlas.map.tile_of(strip.face);
+    const auto width = std::size_t(tile.width);
     const UvTriangle t = atlas.triangle(strip.face);
     for (std::int32_t row = strip.begin; row < strip.end; ++row) {
       auto columns = t.columns(row, atlas.tolerance);
-      atlas.clip(columns, atlas.map.width);
-      columns.second = std::min(columns.second, columns.first + atlas.map.width);
+      clip(tile, columns, tile.width);
+      columns.second = std::min(columns.second, columns.first + tile.width);
       if (columns.first >= columns.second) continue;
-      Index at = atlas.map.texel({std::int32_t(columns.first), row});
-      Coverage* line = &atlas.map.coverage[at / width * width];
+      const Index at = tile.texel({std::int32_t(columns.first), row}) - tile.first;
+      Coverage* line = &atlas.map.coverage[tile.first + at / width * width];
       std::size_t x = at % width;
       for (auto n = columns.second - columns.first; n > 0; --n) {
         std::atomic_ref<Coverage>(line[x]).store(Coverage::touched, std::memory_order_relaxed);
@@ -106,12 +109,12 @@ void mark_touched(const Atlas& atlas, const std::vector<Strip>& strips) {
 
 }  // namespace
 
-TexelClaim TexelMap::square_at(const Vec2& uv) const {
+TexelClaim TexelTile::square_at(const Vec2& uv) const {
   const Vec2 pixel = to_pixels(uv, width, height);
   return {std::int32_t(std::floor(pixel.x())), std::int32_t(std::floor(pixel.y()))};
 }
 
-Index TexelMap::texel_at(const Vec2& uv) const {
+Index TexelTile::texel_at(const Vec2& uv) const {
   TexelClaim square = square_at(uv);
   if (wrap == Wrap::clamp) {
     square.x = std::clamp(square.x, 0, width - 1);
@@ -155,9 +158,11 @@ std::vector<Index> TexelMap::overlapped() const {
       std::plus<>());
   if (covered == claims.size()) return {};
   std::vector<std::uint8_t> count(coverage.size(), 0);
-  for (const TexelClaim& claim : claims) {
-    std::uint8_t& n = count[texel(claim)];
-    n = std::uint8_t(std::min(n + 1, 2));
+  for (Index f = 0; f + 1 < face_offsets.size(); ++f) {
+    for (Index k = face_offsets[f]; k < face_offsets[f + 1]; ++k) {
+      std::uint8_t& n = count[tile_of(f).texel(claims[k])];
+      n = std::uint8_t(std::min(n + 1, 2));
+    }
   }
   std::vector<Index> result;
   for (std::size_t i = 0; i < count.size(); ++i)
@@ -167,63 +172,85 @@ std::vector<Index> TexelMap::overlapped() const {
 
 std::vector<Index> TexelMap::crowded() const {
   std::vector<Index> chart_at(coverage.size(), kNone);
-  for (std::size_t f = 0; f + 1 < face_offsets.size(); ++f) {
+  for (Index f = 0; f + 1 < face_offsets.size(); ++f) {
     for (Index k = face_offsets[f]; k < face_offsets[f + 1]; ++k)
-      chart_at[texel(claims[k])] = chart_of_face[f];
+      chart_at[tile_of(f).texel(claims[k])] = chart_of_face[f];
   }
-  const auto is_crowded = [&](int x, int y) {
-    const Index own = chart_at[texel({x, y})];
+  const auto is_crowded = [&](const TexelTile& tile, int x, int y) {
+    const Index own = chart_at[tile.texel({x, y})];
     if (own == kNone) return false;
-    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v) {
-      for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
-        const Index other = chart_at[texel({u, v})];
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, tile.height - 1); ++v) {
+      for (int u = std::max(x - 1, 0); u <= std::min(x + 1, tile.width - 1); ++u) {
+        const Index other = chart_at[tile.texel({u, v})];
         if (other != kNone && other != own) return true;
       }
     }
     return false;
   };
   std::vector<Index> result;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x)
-      if (is_crowded(x, y)) result.push_back(texel({x, y}));
+  for (const TexelTile& tile : tiles) {
+    for (int y = 0; y < tile.height; ++y) {
+      for (int x = 0; x < tile.width; ++x)
+        if (is_crowded(tile, x, y)) result.push_back(tile.texel({x, y}));
+    }
   }
   return result;
 }
 
-double TexelMap::median_texel_size() const {
+double TexelMap::median_texel_size(Index tile) const {
   std::vector<std::pair<double, Index>> sizes;
-  for (std::size_t f = 0; f < texel_area.size(); ++f) {
+  std::size_t claimed = 0;
+  for (Index f = 0; f < texel_area.size(); ++f) {
     const Index count = face_offsets[f + 1] - face_offsets[f];
-    if (count > 0) sizes.emplace_back(std::sqrt(texel_area[f]), count);
+    if (count == 0 || (tile != kNone && &tile_of(f) != &tiles[tile])) continue;
+    sizes.emplace_back(std::sqrt(texel_area[f]), count);
+    claimed += count;
   }
   std::sort(sizes.begin(), sizes.end());
   std::size_t below = 0;
   for (const auto& [size, count] : sizes) {
     below += count;
-    if (2 * below >= claims.size()) return size;
+    if (2 * below >= claimed) return size;
   }
   return 0;
 }
 
-TexelMap make_texel_map(const TriangleMesh& mesh, int width, int height,
-                        const TexelMapOptions& options) {
+TexelMap make_texel_map(const TriangleMesh& mesh, std::vector<TexelTile> tiles,
+                        std::vector<Index> tile_of_face) {
+  Index first = 0;
+  for (TexelTile& tile : tiles) {
+    tile.first = first;
+    first += tile.size();
+  }
   TexelMap map;
-  map.width = width;
-  map.height = height;
-  map.wrap = options.wrap;
+  map.tiles = std::move(tiles);
+  map.tile_of_face = std::move(tile_of_face);
   std::vector<bool> used(mesh.faces.size());
-  for (Index f = 0; f < used.size(); ++f)
+  for (Index f = 0; f < used.size(); ++f) {
     used[f] = mesh.has_uvs(f) && !has_repeated_vertex(mesh.faces[f]) &&
-              (options.faces.empty() || options.faces[f]);
+              (map.tile_of_face.empty() || map.tile_of_face[f] != kNone);
+  }
   check(mesh, used, map);
   const UvNeighbours neighbours(mesh, used);
-  const Atlas atlas{mesh, map, used, neighbours, pixel_tolerance(mesh, used, width, height)};
+  double tolerance = 0;
+  for (const TexelTile& tile : map.tiles)
+    tolerance = std::max(tolerance, pixel_tolerance(mesh, used, tile.width, tile.height));
+  const Atlas atlas{mesh, map, used, neighbours, tolerance};
   make_transforms(atlas);
   make_charts(atlas);
   const std::vector<Strip> strips = make_strips(atlas);
   mark_touched(atlas, strips);
   claim_texels(atlas, strips);
   return map;
+}
+
+TexelMap make_texel_map(const TriangleMesh& mesh, int width, int height,
+                        const TexelMapOptions& options) {
+  std::vector<Index> tile_of_face;
+  if (!options.faces.empty()) {
+    for (const bool carries : options.faces) tile_of_face.push_back(carries ? 0 : kNone);
+  }
+  return make_texel_map(mesh, {{width, height, options.wrap}}, std::move(tile_of_face));
 }
 
 }  // namespace onmesh

@@ -24,40 +24,61 @@ struct TexelClaim {
   std::int32_t y = 0;  ///< row
 };
 
-/// Per input face, the texels whose centre lies inside or on its UV triangle (within 1e-9 texel),
-/// ordered by row, then column.
-///
-/// A centre on an edge or vertex shared by several faces of one chart belongs to the lowest face
-/// index; a chart without any centre claims the one texel it overlaps most, through the face
-/// closest to that texel's centre. A chart is a set of faces connected over edges whose UV indices
-/// agree on all sides (find_charts()). Faces without UV or surface area are not rasterised.
-class TexelMap {
- public:
-  int width = 0;                    ///< texels
-  int height = 0;                   ///< texels
-  Wrap wrap = Wrap::repeat;         ///< how UVs outside [0,1] are read
-  std::vector<Index> face_offsets;  ///< faces + 1, into claims
-  LargeArray<TexelClaim> claims;    ///< those of face f are [face_offsets[f], face_offsets[f + 1])
-  /// Per face the surface area of one whole texel, mesh units squared; 0 = not rasterised.
-  std::vector<double> texel_area;
-  std::vector<Coverage> coverage;    ///< width * height
-  std::vector<Index> chart_of_face;  ///< chart number, kNone = not rasterised
-  Index charts = 0;                  ///< number of charts
+/// A texture of the surface, as the atlas sees it. Its texels have numbers of their own among those
+/// of all tiles: row by row from `first` on.
+struct TexelTile {
+  int width = 0;             ///< texels
+  int height = 0;            ///< texels
+  Wrap wrap = Wrap::repeat;  ///< how UVs outside [0,1] are read
+  Index first = 0;           ///< number of the first texel; make_texel_map() sets it
 
-  /// Texel index (row * width + column) of a claim, wrapped into the image.
+  /// Number of a claim's texel, wrapped into the tile.
   Index texel(const TexelClaim& claim) const {
     const auto wrapped = [](std::int32_t i, int n) {
       if (i >= 0 && i < n) return i;
       const std::int32_t rest = i % n;
       return rest < 0 ? rest + n : rest;
     };
-    return Index(wrapped(claim.y, height)) * Index(width) + Index(wrapped(claim.x, width));
+    return first + Index(wrapped(claim.y, height)) * Index(width) + Index(wrapped(claim.x, width));
   }
   /// The texel whose square holds the UV, not wrapped.
   TexelClaim square_at(const Vec2& uv) const;
-  /// Index of the texel whose square holds the UV, wherever it lies: wrapped, or clamped to the
-  /// image.
+  /// Number of the texel whose square holds the UV, wherever it lies: wrapped, or clamped to the
+  /// tile.
   Index texel_at(const Vec2& uv) const;
+  /// Whether the texel is in the tile or, repeated, around it.
+  bool holds(const TexelClaim& claim) const {
+    return wrap == Wrap::repeat ||
+           (claim.x >= 0 && claim.y >= 0 && claim.x < width && claim.y < height);
+  }
+  /// How many texels it has.
+  Index size() const { return Index(width) * Index(height); }
+};
+
+/// Per input face, the texels whose centre lies inside or on its UV triangle (within 1e-9 texel),
+/// ordered by row, then column.
+///
+/// A centre on an edge or vertex shared by several faces of one chart belongs to the lowest face
+/// index; a chart without any centre claims the one texel it overlaps most, through the face
+/// closest to that texel's centre. A chart is a set of faces connected over edges whose UV indices
+/// agree on all sides, in one tile (find_charts()). Faces without UV or surface area are not
+/// rasterised.
+class TexelMap {
+ public:
+  std::vector<TexelTile> tiles;     ///< at least one
+  std::vector<Index> tile_of_face;  ///< into tiles; empty = all in the first
+  std::vector<Index> face_offsets;  ///< faces + 1, into claims
+  LargeArray<TexelClaim> claims;    ///< those of face f are [face_offsets[f], face_offsets[f + 1])
+  /// Per face the surface area of one whole texel, mesh units squared; 0 = not rasterised.
+  std::vector<double> texel_area;
+  std::vector<Coverage> coverage;    ///< per texel of all tiles
+  std::vector<Index> chart_of_face;  ///< chart number, kNone = not rasterised
+  Index charts = 0;                  ///< number of charts
+
+  /// The tile that the face's texels are in.
+  const TexelTile& tile_of(Index face) const {
+    return tiles[tile_of_face.empty() ? 0 : tile_of_face[face]];
+  }
   /// Barycentric coordinates of the claim's centre in its face, clamped to the face.
   Vec3 barycentric(Index face, const TexelClaim& claim) const;
   /// Map from pixel coordinates (x right, y down, texel centres at +.5) to the face's barycentric
@@ -70,7 +91,9 @@ class TexelMap {
   /// the two mix both charts, and no gutter fits in.
   std::vector<Index> crowded() const;
   /// Median over claims of the square root of the texel's surface area, mesh units: the unit "tx".
-  double median_texel_size() const;
+  /// \param tile of which alone; kNone = of all
+  /// \return 0 if there are no claims
+  double median_texel_size(Index tile = kNone) const;
 
   std::vector<Eigen::Matrix3d> to_barycentric_;  ///< per face; zero where it is not rasterised
 };
@@ -94,5 +117,12 @@ struct TexelMapOptions {
 /// \throw InputError if more than 2^31 texels are claimed
 TexelMap make_texel_map(const TriangleMesh& mesh, int width, int height,
                         const TexelMapOptions& options = {});
+
+/// The same for a surface in several tiles, each face in one. UVs are those of the face's own tile,
+/// which is [0,1].
+/// \param tile_of_face per face, into tiles; kNone = it carries no texture
+/// \pre there is a tile, and the tiles have less than 2^32 texels in all
+TexelMap make_texel_map(const TriangleMesh& mesh, std::vector<TexelTile> tiles,
+                        std::vector<Index> tile_of_face);
 
 }  // namespace onmesh

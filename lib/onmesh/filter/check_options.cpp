@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "onmesh/base/face_error.h"
@@ -16,12 +15,6 @@ constexpr double kLeastValue = 1e-15, kLargestValue = 1e15;
 
 /// More rings than an image has rows.
 constexpr int kMostRings = 32768;
-
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
 
 void check_numbers(const FilterOptions& options) {
   const auto check = [](const char* option, const std::optional<Length>& length) {
@@ -59,6 +52,19 @@ void check_count(const char* what, std::size_t count, std::size_t faces) {
                    std::to_string(count) + " " + what);
 }
 
+void check_image(const Image& image) {
+  const auto values = [](int n) { return std::size_t(std::max(n, 0)); };
+  if (image.pixels.size() != values(image.width) * values(image.height) * values(image.channels) ||
+      image.pixels.empty()) {
+    throw InputError("the texture's pixels are not width * height * channels values");
+  }
+}
+
+std::string channels_text(const Image& image) {
+  return count_text(image.channels, "channel", "channels") +
+         (image.alpha_channel >= 0 ? " with alpha" : "");
+}
+
 }  // namespace
 
 void require_positive(const char* option, double value) {
@@ -83,7 +89,7 @@ void check_options(const FilterOptions& options, std::size_t faces) {
   }
 }
 
-void check_arrays(const TriangleMesh& mesh, const Image& texture) {
+void check_arrays(const TriangleMesh& mesh) {
   check_count("face_uvs", mesh.face_uvs.size(), mesh.faces.size());
   check_count("face_materials", mesh.face_materials.size(), mesh.faces.size());
   for (Index f = 0; f < mesh.faces.size(); ++f) {
@@ -106,11 +112,32 @@ void check_arrays(const TriangleMesh& mesh, const Image& texture) {
       throw InputError("vertex " + std::to_string(v) + ": its position is not finite");
     }
   }
-  const auto values = [](int n) { return std::size_t(std::max(n, 0)); };
-  if (texture.pixels.size() !=
-          values(texture.width) * values(texture.height) * values(texture.channels) ||
-      texture.pixels.empty()) {
-    throw InputError("the texture's pixels are not width * height * channels values");
+}
+
+void check_textures(const SurfaceTextures& textures, std::size_t faces) {
+  if (textures.tiles.empty()) throw InputError("there is no texture");
+  if (!textures.tile_of_face.empty())
+    check_count("tile_of_face", textures.tile_of_face.size(), faces);
+  for (const Index tile : textures.tile_of_face) {
+    if (tile != kNone && tile >= textures.tiles.size())
+      throw InputError("tile_of_face: a tile is out of range");
+  }
+  const Image& first = *textures.tiles[0].image;
+  double texels = 0;
+  for (const TextureTile& tile : textures.tiles) {
+    check_image(*tile.image);
+    texels += double(tile.image->width) * tile.image->height;
+    if (tile.image->channels != first.channels ||
+        tile.image->alpha_channel != first.alpha_channel) {
+      throw InputError(tile.name + " has " + channels_text(*tile.image) + ", " +
+                       textures.tiles[0].name + " has " + channels_text(first) +
+                       ": textures that are filtered together need the same channels");
+    }
+  }
+  constexpr double kMostTexels = 4294967295.0;
+  if (texels >= kMostTexels) throw InputError("the textures have more than 2^32 texels in all");
+  if (first.range_channels().empty()) {
+    throw InputError("the texture has no channel but alpha: nothing to filter");
   }
 }
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "onmesh/filter/options.h"
-#include "onmesh/image/image.h"
+#include "onmesh/filter/surface_textures.h"
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {
@@ -23,8 +23,12 @@ void require_within(const char* option, double value, double least, double large
 /// \throw OptionError naming the field of FilterOptions
 void check_options(const FilterOptions& options, std::size_t faces);
 
-/// \throw InputError if the mesh's or the texture's arrays do not fit together, or a position is
-///   not finite
-void check_arrays(const TriangleMesh& mesh, const Image& texture);
+/// \throw InputError if the mesh's arrays do not fit together, or a position is not finite
+void check_arrays(const TriangleMesh& mesh);
+
+/// \param faces of the mesh as given
+/// \throw InputError if an image's arrays do not fit together, it has no channel but alpha, or the
+///   channels of the tiles differ
+void check_textures(const SurfaceTextures& textures, std::size_t faces);
 
 }  // namespace onmesh

@@ -41,18 +41,22 @@ FilterSamples draw_samples(const FilterSetup& setup, const NodeSurface& surface,
   return samples;
 }
 
-Colours gather_colours(const Image& texture, bool bilateral, std::vector<float>& packed) {
-  const std::vector<int> channels = texture.range_channels();
+Colours gather_colours(const SurfaceTextures& textures, bool bilateral,
+                       std::vector<float>& packed) {
+  const Image& first = *textures.tiles[0].image;
+  const std::vector<int> channels = first.range_channels();
   const auto count = static_cast<int>(channels.size());
-  if (channels.back() == count - 1) {
-    return {texture.pixels.data(), count, bilateral ? count : 0, texture.channels, texture.width};
+  if (textures.tiles.size() == 1 && channels.back() == count - 1) {
+    return {first.pixels.data(), count, bilateral ? count : 0, first.channels, first.width};
   }
-  const auto texels = std::size_t(texture.width) * std::size_t(texture.height);
-  packed.reserve(texels * channels.size());
-  for (std::size_t t = 0; t < texels; ++t) {
-    for (const int c : channels) packed.push_back(texture.texel(Index(t))[c]);
+  packed.reserve(std::size_t(textures.values().size()) * channels.size());
+  for (const TextureTile& tile : textures.tiles) {
+    const auto texels = Index(tile.image->width) * Index(tile.image->height);
+    for (Index t = 0; t < texels; ++t) {
+      for (const int c : channels) packed.push_back(tile.image->texel(t)[c]);
+    }
   }
-  return {packed.data(), count, bilateral ? count : 0, count, texture.width};
+  return {packed.data(), count, bilateral ? count : 0, count, first.width};
 }
 
 }  // namespace onmesh

@@ -23,10 +23,10 @@ struct FilterSamples {
 FilterSamples draw_samples(const FilterSetup& setup, const NodeSurface& surface,
                            const FilterOptions& options, const Progress& progress);
 
-/// The colours to filter: the texture's own pixels where its colour channels come first, else a
-/// copy of them in `packed`.
+/// The colours to filter: a single texture's own pixels where its colour channels come first, else
+/// a copy of them in `packed`.
 /// \param bilateral whether they take part in weights
-/// \pre texture and packed outlive the result
-Colours gather_colours(const Image& texture, bool bilateral, std::vector<float>& packed);
+/// \pre the images and packed outlive the result
+Colours gather_colours(const SurfaceTextures& textures, bool bilateral, std::vector<float>& packed);
 
 }  // namespace onmesh

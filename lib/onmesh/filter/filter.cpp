@@ -15,6 +15,7 @@
 #include "onmesh/base/process_memory.h"
 #include "onmesh/base/text.h"
 #include "onmesh/distance/make_backend.h"
+#include "onmesh/filter/check_options.h"
 #include "onmesh/filter/draw_samples.h"
 #include "onmesh/filter/memory_plan.h"
 #include "onmesh/filter/patch_loop.h"
@@ -96,15 +97,15 @@ void note_counts(const PatchCounts& counts, FilterReport& report) {
 
 /// What all stages of a run know.
 struct RunContext {
-  const Image& texture;
+  const SurfaceTextures& textures;
   const FilterOptions& options;
   const FilterSetup& setup;
   Stages& stages;
   FilterReport& report;
 };
 
-/// \param image gets a copy of the texture
-NodeSurface make_nodes(const RunContext& run, Image& image) {
+/// \param images get copies of the textures
+NodeSurface make_nodes(const RunContext& run, std::vector<Image>& images) {
   const FilterSetup& setup = run.setup;
   RefineOptions refinement = setup.refinement;
   // The plan has an upper bound. Needles and strips can go beyond, by what is nothing to speak of.
@@ -112,9 +113,12 @@ NodeSurface make_nodes(const RunContext& run, Image& image) {
   refinement.enough_nodes = Index(std::min(1e8, 1.5 * double(setup.mesh_plan.nodes) + kLittle));
   RefineReport refined;
   NodeSurface surface;
-  // Most of the refinement runs on one thread; another one can copy the texture meanwhile.
+  // Most of the refinement runs on one thread; another one can copy the textures meanwhile.
   tbb::parallel_invoke([&] { surface = refine(setup.mesh, setup.cleaning, refinement, &refined); },
-                       [&] { image = run.texture; });
+                       [&] {
+                         for (const TextureTile& tile : run.textures.tiles)
+                           images.push_back(*tile.image);
+                       });
   run.report.refinement = refined.bisected ? "bisection" : "intrinsic";
   if (refined.coarser > 1) {
     run.report.warnings.push_back((std::isfinite(refined.coarser)
@@ -132,9 +136,9 @@ NodeSurface make_nodes(const RunContext& run, Image& image) {
   return surface;
 }
 
-/// Distances and sums, patch by patch, into the image.
+/// Distances and sums, patch by patch, into the images.
 void filter_samples(const RunContext& run, const NodeMesh& nodes, const FilterSamples& samples,
-                    Image& image) {
+                    const TexelValues& results_at) {
   const FilterOptions& options = run.options;
   const WorkingPlan& lengths = run.setup.lengths;
   const bool bilateral = options.kind == FilterKind::bilateral;
@@ -146,16 +150,16 @@ void filter_samples(const RunContext& run, const NodeMesh& nodes, const FilterSa
   work.backend = backend.get();
   work.sources = &samples.sources;
   work.targets = &samples.targets();
-  work.colours = gather_colours(run.texture, bilateral, packed);
+  work.colours = gather_colours(run.textures, bilateral, packed);
   work.kernel = {lengths.sigma_spatial, lengths.radius, bilateral ? options.sigma_range : 0};
   work.method = options.method;
   if (options.distance == DistanceMethod::exact) refuse_long_runs(work);
 
   const bool poisson = options.samples == SampleKind::poisson;
   const ValueRange range =
-      value_range(run.texture, run.setup.map, poisson ? &samples.sources : nullptr);
+      value_range(run.textures.values(), run.setup.map, poisson ? &samples.sources : nullptr);
   work.tolerance = options.tolerance * range.extent();
-  Results results(run.setup.overlap, samples.targets(), range, image);
+  Results results(run.setup.overlap, samples.targets(), range, results_at);
   const PatchCounts counts = filter_patches(
       work, [&](Index begin, Index end, const float* values) { results.store(begin, end, values); },
       [&](double done) { run.stages.advance(done); });
@@ -168,20 +172,23 @@ void filter_samples(const RunContext& run, const NodeMesh& nodes, const FilterSa
   }
 }
 
-Image run_filter(const TriangleMesh& mesh, const Image& texture, const FilterOptions& options,
-                 FilterReport& report, const Progress& progress) {
+std::vector<Image> run_filter(const TriangleMesh& mesh, const SurfaceTextures& textures,
+                              const FilterOptions& options, FilterReport& report,
+                              const Progress& progress) {
   Stages stages(report, progress);
   stages.begin("texel map");
-  const FilterSetup setup = set_up_filter(mesh, texture, options);
+  const FilterSetup setup = set_up_filter(mesh, textures, options);
   require_memory(setup.mesh_plan);
   note_plan(setup.mesh_plan, report);
   stages.end();
 
   return with_face_numbers(setup.cleaning.kept, [&] {
-    const RunContext run{texture, options, setup, stages, report};
+    const RunContext run{textures, options, setup, stages, report};
     stages.begin("refine");
-    Image image;
-    NodeSurface surface = make_nodes(run, image);
+    std::vector<Image> images;
+    NodeSurface surface = make_nodes(run, images);
+    TexelValues values;
+    for (Image& image : images) values.add(image);
     stages.end();
 
     stages.begin("samples");
@@ -192,22 +199,23 @@ Image run_filter(const TriangleMesh& mesh, const Image& texture, const FilterOpt
     stages.end();
 
     stages.begin("filter");
-    filter_samples(run, surface.nodes, samples, image);
+    filter_samples(run, surface.nodes, samples, values);
     samples = {};
     surface = {};
     stages.end();
 
     stages.begin("gutter");
-    report.gutter = fill_gutter(setup.mesh, setup.map, options.gutter, image).size();
+    report.gutter = fill_gutter(setup.mesh, setup.map, options.gutter, values).size();
     stages.end();
-    return image;
+    return images;
   });
 }
 
 }  // namespace
 
-Image filter(const TriangleMesh& mesh, const Image& texture, const FilterOptions& options,
-             FilterReport* report, const Progress& progress) {
+std::vector<Image> filter(const TriangleMesh& mesh, const SurfaceTextures& textures,
+                          const FilterOptions& options, FilterReport* report,
+                          const Progress& progress) {
   FilterReport unused;
   FilterReport& out = report != nullptr ? *report : unused;
   out = {};
@@ -220,16 +228,28 @@ Image filter(const TriangleMesh& mesh, const Image& texture, const FilterOptions
   }
   tbb::task_arena arena(threads);
   try {
-    return arena.execute([&] { return run_filter(mesh, texture, options, out, progress); });
+    return arena.execute([&] { return run_filter(mesh, textures, options, out, progress); });
   } catch (const std::bad_alloc&) {
     throw InputError("out of memory, with " + memory_text(resident_memory_bytes()) +
                      " in use; choose a larger node spacing or a smaller texture");
   }
 }
 
+Image filter(const TriangleMesh& mesh, const Image& texture, const FilterOptions& options,
+             FilterReport* report, const Progress& progress) {
+  check_options(options, mesh.faces.size());
+  return std::move(filter(mesh, one_texture(texture, options), options, report, progress).front());
+}
+
+FilterPlan plan_filter(const TriangleMesh& mesh, const SurfaceTextures& textures,
+                       const FilterOptions& options) {
+  return set_up_filter(mesh, textures, options).mesh_plan;
+}
+
 FilterPlan plan_filter(const TriangleMesh& mesh, const Image& texture,
                        const FilterOptions& options) {
-  return set_up_filter(mesh, texture, options).mesh_plan;
+  check_options(options, mesh.faces.size());
+  return plan_filter(mesh, one_texture(texture, options), options);
 }
 
 }  // namespace onmesh

@@ -45,9 +45,12 @@ std::uint64_t whole_number(double estimate) {
   return static_cast<std::uint64_t>(estimate < kMost ? estimate : kMost);
 }
 
-std::uint64_t expected_memory(const Image& texture, const FilterPlan& plan,
+std::uint64_t expected_memory(const SurfaceTextures& textures, const FilterPlan& plan,
                               const FilterOptions& options) {
-  const double values = double(texture.pixels.size()) * sizeof(float);
+  const ConstTexelValues texels = textures.values();
+  // The results and, of several textures, the values side by side.
+  const double copies = textures.tiles.size() > 1 ? 2 : 1;
+  const double values = copies * double(texels.size()) * texels.channels() * sizeof(float);
   const double per_sample =
       options.samples == SampleKind::poisson ? kBytesPerPoissonSample : kBytesPerSample;
   return whole_number(double(resident_memory_bytes()) + values +
@@ -55,14 +58,15 @@ std::uint64_t expected_memory(const Image& texture, const FilterPlan& plan,
                       kBytesPerNode * double(plan.nodes) + kBytesPerThread * thread_count(options));
 }
 
-void require_memory_for_texels(const TriangleMesh& mesh, const Image& texture,
-                               const FilterOptions& options) {
-  if (options.wrap == Wrap::clamp) return;  // there are no more than the image has
+void require_memory_for_texels(const TriangleMesh& mesh, const SurfaceTextures& textures,
+                               const std::vector<Index>& tiles, const FilterOptions& options) {
   constexpr double kBytesPerClaim = sizeof(TexelClaim);
   double texels = 0;
   for (Index f = 0; f < mesh.faces.size(); ++f) {
-    if (!mesh.has_uvs(f)) continue;
-    const double area = std::abs(mesh.uv_area(f)) * texture.width * texture.height;
+    if (!mesh.has_uvs(f) || tiles[f] == kNone) continue;
+    const TextureTile& tile = textures.tiles[tiles[f]];
+    if (tile.wrap == Wrap::clamp) continue;  // there are no more than the image has
+    const double area = std::abs(mesh.uv_area(f)) * tile.image->width * tile.image->height;
     if (std::isfinite(area)) texels += area;
   }
   const double bytes = (kBytesPerClaim + kBytesPerTexel + kBytesPerSample) * texels;

@@ -67,10 +67,10 @@ struct FilterOptions {
   std::optional<double> r_coef;
   std::uint64_t seed = 1;  ///< of the Poisson samples, any
 
-  Wrap wrap = Wrap::repeat;            ///< how UVs outside [0,1] are read
+  Wrap wrap = Wrap::repeat;            ///< one texture: how UVs outside [0,1] are read
   Overlap overlap = Overlap::average;  ///< texels that several places of the surface claim
   int gutter = 2;                      ///< rings of texels filled around the charts, [0, 32768]
-  /// Per face of the mesh as given: whether it carries the texture. Empty = all faces with UVs.
+  /// One texture, per face of the mesh as given: whether it carries it. Empty = all faces with UVs.
   std::vector<bool> faces;
   int threads = 0;  ///< >= 0; 0 = as many as there are processors
   /// Runs that would take more memory are refused, bytes; 0 = what there is and what is left.

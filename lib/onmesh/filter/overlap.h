@@ -8,6 +8,7 @@
 
 #include "onmesh/atlas/texel_map.h"
 #include "onmesh/filter/options.h"
+#include "onmesh/filter/surface_textures.h"
 #include "onmesh/samples/samples.h"
 
 namespace onmesh {
@@ -18,7 +19,7 @@ class OverlapPolicy {
   /// No texel is claimed more than once.
   OverlapPolicy() = default;
   /// \throw InputError with Overlap::error if a texel is claimed more than once
-  OverlapPolicy(Overlap overlap, const TexelMap& map);
+  OverlapPolicy(Overlap overlap, const TexelMap& map, const SurfaceTextures& textures);
 
   /// Texels claimed more than once, ascending.
   const std::vector<Index>& texels() const { return texels_; }
@@ -35,7 +36,7 @@ class OverlapPolicy {
 
   Overlap overlap_ = Overlap::average;
   std::vector<Index> texels_;
-  Index width_ = 0;  ///< of the texture
+  std::string first_;  ///< where the first of them is
 };
 
 /// \return the map with only the first claim of every texel (the lowest face's)

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "onmesh/base/face_error.h"
 #include "onmesh/base/text.h"
@@ -45,10 +47,9 @@ void warn_of_cleaning(const TriangleMesh& mesh, const CleanReport& report,
   }
 }
 
-/// Charts beside the image's own tile repeat it, which is meant for tiling textures, but not for
-/// UDIM.
-void warn_of_tiles(const TriangleMesh& mesh, const TexelMap& map,
-                   std::vector<std::string>& warnings) {
+/// Charts beyond their tile repeat it, which is meant for tiling textures, but not for UDIM.
+void warn_of_wrapping(const TriangleMesh& mesh, const TexelMap& map,
+                      std::vector<std::string>& warnings) {
   Index outside = 0;
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     if (map.chart_of_face[f] == kNone) continue;
@@ -62,12 +63,46 @@ void warn_of_tiles(const TriangleMesh& mesh, const TexelMap& map,
                      "wrap=clamp");
 }
 
+/// Faces of one tile that reach over its border see more of that tile there, not of the next one.
+void warn_of_crossing(const TriangleMesh& mesh, const TexelMap& map,
+                      std::vector<std::string>& warnings) {
+  if (map.tiles.size() < 2) return;
+  constexpr double kRounding = 1e-6;
+  Index crossing = 0;
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    if (map.chart_of_face[f] == kNone) continue;
+    bool is_beyond = false;
+    for (const Vec2& uv : mesh.corner_uvs(f))
+      is_beyond |= uv.minCoeff() < -kRounding || uv.maxCoeff() > 1 + kRounding;
+    crossing += is_beyond;
+  }
+  if (crossing == 0) return;
+  warnings.push_back(count_text(crossing, "face reaches", "faces reach") +
+                     " beyond the border of the tile that holds the middle: the tile's wrap mode "
+                     "says what is there");
+}
+
+/// Textures of very different resolution share one unit "tx", and sigma may be less than a texel.
+void warn_of_sizes(const PreparedMesh& prepared, const SurfaceTextures& textures,
+                   std::vector<std::string>& warnings) {
+  const TexelMap& map = prepared.map;
+  if (map.tiles.size() < 2) return;
+  const double all = map.median_texel_size();
+  for (Index i = 0; i < map.tiles.size(); ++i) {
+    const double own = map.median_texel_size(i);
+    if (!(own > 0) || (own <= 2 * all && all <= 2 * own)) continue;
+    warnings.push_back(textures.tiles[i].name + ": its texels are " +
+                       number_text(own * prepared.unit) + " wide, those of all textures " +
+                       number_text(all * prepared.unit) + " (median): 1tx is the latter");
+  }
+}
+
 /// Faces that hold texels by their UVs, but have no place for a sample on the surface.
-void warn_of_thin_faces(const TriangleMesh& mesh, const std::vector<bool>& faces,
+void warn_of_thin_faces(const TriangleMesh& mesh, const std::vector<Index>& tile_of_face,
                         std::vector<std::string>& warnings) {
   Index thin = 0;
   for (Index f = 0; f < mesh.faces.size(); ++f) {
-    const bool is_used = (faces.empty() || faces[f]) && mesh.has_uvs(f) && mesh.uv_area(f) != 0;
+    const bool is_used = tile_of_face[f] != kNone && mesh.has_uvs(f) && mesh.uv_area(f) != 0;
     thin += is_used && mesh.is_degenerate(f);
   }
   if (thin == 0) return;
@@ -75,23 +110,49 @@ void warn_of_thin_faces(const TriangleMesh& mesh, const std::vector<bool>& faces
                      " no area on the surface: the texture stays as it is there");
 }
 
-/// `faces` of the mesh as read, for the faces that are left.
-std::vector<bool> faces_left(const std::vector<bool>& faces, const CleanReport& cleaning) {
-  if (faces.empty()) return {};
-  std::vector<bool> left(cleaning.kept.size());
-  for (std::size_t f = 0; f < left.size(); ++f) left[f] = faces[cleaning.kept[f]];
+/// The tiles of the faces that are left.
+std::vector<Index> tiles_left(const SurfaceTextures& textures, const CleanReport& cleaning) {
+  std::vector<Index> left(cleaning.kept.size(), 0);
+  if (textures.tile_of_face.empty()) return left;
+  for (std::size_t f = 0; f < left.size(); ++f) left[f] = textures.tile_of_face[cleaning.kept[f]];
   return left;
 }
 
-void require_claims(const TriangleMesh& mesh, const TexelMap& map, const std::vector<bool>& faces) {
+/// Give every face the UVs of its own tile. Those of different tiles have no UV index in common
+/// afterwards: a tile's border ends its charts.
+void make_uvs_local(const SurfaceTextures& textures, const std::vector<Index>& tile_of_face,
+                    TriangleMesh& mesh) {
+  const TextureTile& first = textures.tiles[0];
+  if (textures.tiles.size() == 1 && first.column == 0 && first.row == 0) return;
+  std::map<std::pair<Index, Index>, Index> numbers;  // of (tile, UV)
+  std::vector<Vec2> uvs;
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    const Index tile = tile_of_face[f];
+    if (tile == kNone || !mesh.has_uvs(f)) {
+      mesh.face_uvs[f] = {kNone, kNone, kNone};
+      continue;
+    }
+    const Vec2 origin(textures.tiles[tile].column, textures.tiles[tile].row);
+    for (Index& uv : mesh.face_uvs[f]) {
+      const auto [at, is_new] = numbers.try_emplace({tile, uv}, Index(uvs.size()));
+      if (is_new) uvs.push_back(mesh.uvs[uv] - origin);
+      uv = at->second;
+    }
+  }
+  mesh.uvs = std::move(uvs);
+}
+
+void require_claims(const TriangleMesh& mesh, const TexelMap& map,
+                    const std::vector<Index>& tile_of_face) {
   if (!map.claims.empty()) return;
   if (mesh.faces.empty()) throw InputError("the mesh has no faces to filter on");
-  bool any_uvs = false, any_uv_area = false, any_face = faces.empty();
+  bool any_uvs = false, any_uv_area = false, any_face = false;
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     any_uvs = any_uvs || mesh.has_uvs(f);
     any_uv_area = any_uv_area || (mesh.has_uvs(f) && mesh.uv_area(f) != 0);
-    any_face = any_face || faces[f];
+    any_face = any_face || tile_of_face[f] != kNone;
   }
+  if (!any_face) throw InputError("no face of the mesh carries the texture");
   if (!any_uvs) {
     throw InputError("the mesh has no UVs, so no texture can be filtered on it");
   }
@@ -100,8 +161,7 @@ void require_claims(const TriangleMesh& mesh, const TexelMap& map, const std::ve
         "the UVs of no face have any area (each is a spot or a line in the texture), so there is "
         "nothing to filter");
   }
-  throw InputError(any_face ? "no texel of the texture lies on a face with area"
-                            : "no face of the mesh carries the texture");
+  throw InputError("no texel of the texture lies on a face with area");
 }
 
 /// A power of two that brings a mesh to a size whose squares hold in double precision; 1 for all
@@ -132,7 +192,7 @@ void fit_unit_to_texels(PreparedMesh& prepared) {
 
 }  // namespace
 
-PreparedMesh prepare_mesh(const TriangleMesh& mesh, const Image& texture,
+PreparedMesh prepare_mesh(const TriangleMesh& mesh, const SurfaceTextures& textures,
                           const FilterOptions& options) {
   PreparedMesh out;
   out.mesh = weld(mesh);
@@ -151,15 +211,20 @@ PreparedMesh prepare_mesh(const TriangleMesh& mesh, const Image& texture,
   for (Vec3& p : out.mesh.positions) p /= out.unit;
   out.unit /= scale;
 
-  const std::vector<bool> faces = faces_left(options.faces, out.cleaning);
-  require_memory_for_texels(out.mesh, texture, options);
-  out.map = with_face_numbers(out.cleaning.kept, [&] {
-    return make_texel_map(out.mesh, texture.width, texture.height, {options.wrap, faces});
-  });
-  require_claims(out.mesh, out.map, faces);
-  warn_of_thin_faces(out.mesh, faces, out.warnings);
+  const std::vector<Index> tile_of_face = tiles_left(textures, out.cleaning);
+  require_memory_for_texels(out.mesh, textures, tile_of_face, options);
+  make_uvs_local(textures, tile_of_face, out.mesh);
+  std::vector<TexelTile> tiles;
+  for (const TextureTile& tile : textures.tiles)
+    tiles.push_back({tile.image->width, tile.image->height, tile.wrap});
+  out.map = with_face_numbers(
+      out.cleaning.kept, [&] { return make_texel_map(out.mesh, std::move(tiles), tile_of_face); });
+  require_claims(out.mesh, out.map, tile_of_face);
+  warn_of_thin_faces(out.mesh, tile_of_face, out.warnings);
   fit_unit_to_texels(out);
-  warn_of_tiles(out.mesh, out.map, out.warnings);
+  if (textures.tiles.size() == 1) warn_of_wrapping(out.mesh, out.map, out.warnings);
+  warn_of_crossing(out.mesh, out.map, out.warnings);
+  warn_of_sizes(out, textures, out.warnings);
   return out;
 }
 

@@ -6,14 +6,14 @@
 
 #include "onmesh/atlas/texel_map.h"
 #include "onmesh/filter/options.h"
-#include "onmesh/image/image.h"
+#include "onmesh/filter/surface_textures.h"
 #include "onmesh/mesh/clean.h"
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {
 
 struct PreparedMesh {
-  TriangleMesh mesh;  ///< welded and clean, in working units
+  TriangleMesh mesh;  ///< welded and clean, in working units, UVs those of each face's own tile
   CleanReport cleaning;
   TexelMap map;
   /// Mesh units per working unit: the power of two that brings the mesh's diagonal near 1, so that
@@ -23,11 +23,11 @@ struct PreparedMesh {
 };
 
 /// \param mesh as read
-/// \pre check_options() has passed
+/// \pre check_options() and check_textures() have passed
 /// \throw InputError if no face carries a texel, or if exact distances are asked for on a mesh that
 ///   is not manifold
 /// \throw FaceError<InputError> by the number in `mesh`, see make_texel_map()
-PreparedMesh prepare_mesh(const TriangleMesh& mesh, const Image& texture,
+PreparedMesh prepare_mesh(const TriangleMesh& mesh, const SurfaceTextures& textures,
                           const FilterOptions& options);
 
 }  // namespace onmesh

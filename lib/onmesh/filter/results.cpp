@@ -28,8 +28,9 @@ ValueRange join(ValueRange a, const ValueRange& b) {
 /// The range of the finite values of `count` texels.
 /// \param texel_of the k-th of them, or kNone
 template <class TexelOf>
-ValueRange range_of_texels(const Image& texture, const std::vector<int>& channels,
-                           std::size_t count, const TexelOf& texel_of) {
+ValueRange range_of_texels(const ConstTexelValues& texels, std::size_t count,
+                           const TexelOf& texel_of) {
+  const std::vector<int>& channels = texels.range_channels();
   // A channel at a time, so that the range stays in registers.
   const auto widen = [&](ValueRange& range, std::size_t begin, std::size_t end) {
     for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -37,7 +38,7 @@ ValueRange range_of_texels(const Image& texture, const std::vector<int>& channel
       for (std::size_t k = begin; k < end; ++k) {
         const Index texel = texel_of(k);
         if (texel == kNone) continue;
-        const float value = texture.texel(texel)[channels[c]];
+        const float value = texels[texel][channels[c]];
         if (!std::isfinite(value)) continue;
         lowest = std::min(lowest, value);
         highest = std::max(highest, value);
@@ -66,33 +67,33 @@ double ValueRange::extent() const {
   return high > low ? double(high) - low : 1;
 }
 
-ValueRange value_range(const Image& texture, const TexelMap& map, const Samples* sources) {
-  const std::vector<int> channels = texture.range_channels();
+ValueRange value_range(const ConstTexelValues& texels, const TexelMap& map,
+                       const Samples* sources) {
   // Covered texels are looked at in the texture's order, which is faster than that of the claims.
-  ValueRange range = range_of_texels(texture, channels, map.coverage.size(), [&](std::size_t t) {
+  ValueRange range = range_of_texels(texels, map.coverage.size(), [&](std::size_t t) {
     return map.coverage[t] == Coverage::covered ? Index(t) : kNone;
   });
   if (sources == nullptr) return range;
   return join(std::move(range),
-              range_of_texels(texture, channels, sources->samples.size(),
+              range_of_texels(texels, sources->samples.size(),
                               [&](std::size_t k) { return sources->samples[k].texel; }));
 }
 
 Results::Results(const OverlapPolicy& overlap, const Samples& targets, ValueRange range,
-                 Image& image)
+                 const TexelValues& texels)
     : targets_(targets),
-      channels_(image.range_channels()),
       range_(std::move(range)),
-      image_(image),
-      shared_(overlap, targets, channels_.size()) {}
+      texels_(texels),
+      shared_(overlap, targets, texels.range_channels().size()) {}
 
 void Results::store(Index begin, Index end, const float* values) {
+  const std::vector<int>& channels = texels_.range_channels();
   // Texels of a face are in many rows; none should be waited for by itself.
   for (Index target = begin; target < end; ++target)
-    hwy::Prefetch(image_.texel(targets_.samples[target].texel));
+    hwy::Prefetch(texels_[targets_.samples[target].texel]);
   const std::vector<Index>& several = shared_.targets();
   auto shared = std::lower_bound(several.begin(), several.end(), begin);
-  for (Index target = begin; target < end; ++target, values += channels_.size()) {
+  for (Index target = begin; target < end; ++target, values += channels.size()) {
     if (shared != several.end() && *shared == target) {
       shared_.keep(std::size_t(shared - several.begin()), values);
       ++shared;
@@ -109,14 +110,15 @@ void Results::merge_shared() {
 /// Rounding must not leave the samples' range; texels with a value that is not finite stay. Sums
 /// may overflow where values are as large as single precision has them: these texels stay as well.
 void Results::write(Index texel, const float* values) {
-  float* const out = image_.texel(texel);  // as the texture has it
+  const std::vector<int>& channels = texels_.range_channels();
+  float* const out = texels_[texel];  // as the texture has it
   bool is_finite = true;
-  for (std::size_t c = 0; c < channels_.size(); ++c) {
-    is_finite &= std::isfinite(out[channels_[c]]) && std::isfinite(values[c]);
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    is_finite &= std::isfinite(out[channels[c]]) && std::isfinite(values[c]);
   }
   if (!is_finite) return;
-  for (std::size_t c = 0; c < channels_.size(); ++c) {
-    out[channels_[c]] = std::clamp(values[c], range_.lowest[c], range_.highest[c]);
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    out[channels[c]] = std::clamp(values[c], range_.lowest[c], range_.highest[c]);
   }
 }
 

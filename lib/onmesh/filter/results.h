@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "onmesh/filter/overlap.h"
-#include "onmesh/image/image.h"
+#include "onmesh/image/texel_values.h"
 
 namespace onmesh {
 
@@ -19,16 +19,17 @@ struct ValueRange {
 /// The range of all values that a texel may end up with: those of the samples, and those of the
 /// targets, which may keep theirs.
 /// \param sources the samples, if others than the covered texels are summed over; else null
-ValueRange value_range(const Image& texture, const TexelMap& map, const Samples* sources);
+ValueRange value_range(const ConstTexelValues& texels, const TexelMap& map, const Samples* sources);
 
-/// Takes the kernel's results and puts them into the image. Every texel is written by one thread:
+/// Takes the kernel's results and puts them into the images. Every texel is written by one thread:
 /// those with several claims wait in a list of their own until all are there.
 class Results {
  public:
-  /// \param image a copy of the texture, to be written
+  /// \param texels of a copy of the textures, to be written
   /// \param range that results are clamped to, against rounding
-  /// \pre all but range outlive this
-  Results(const OverlapPolicy& overlap, const Samples& targets, ValueRange range, Image& image);
+  /// \pre targets and the images outlive this
+  Results(const OverlapPolicy& overlap, const Samples& targets, ValueRange range,
+          const TexelValues& texels);
 
   /// As StoreResults.
   void store(Index begin, Index end, const float* values);
@@ -39,9 +40,8 @@ class Results {
   void write(Index texel, const float* values);
 
   const Samples& targets_;
-  const std::vector<int> channels_;
   const ValueRange range_;
-  Image& image_;
+  const TexelValues texels_;
   SharedResults shared_;
 };
 

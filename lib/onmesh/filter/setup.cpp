@@ -89,15 +89,13 @@ std::uint64_t plan_nodes(const PreparedMesh& prepared, const RefineOptions& refi
 
 }  // namespace
 
-FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
+FilterSetup set_up_filter(const TriangleMesh& mesh, const SurfaceTextures& textures,
                           const FilterOptions& options) {
-  check_arrays(mesh, texture);
+  check_arrays(mesh);
   check_options(options, mesh.faces.size());
-  if (texture.range_channels().empty()) {
-    throw InputError("the texture has no channel but alpha: nothing to filter");
-  }
-  FilterSetup setup{prepare_mesh(mesh, texture, options), {}, {}, {}, false, {}};
-  setup.overlap = OverlapPolicy(options.overlap, setup.map);
+  check_textures(textures, mesh.faces.size());
+  FilterSetup setup{prepare_mesh(mesh, textures, options), {}, {}, {}, false, {}};
+  setup.overlap = OverlapPolicy(options.overlap, setup.map, textures);
   if (!setup.overlap.texels().empty()) setup.warnings.push_back(setup.overlap.warning());
 
   const bool poisson = options.samples == SampleKind::poisson;
@@ -116,7 +114,7 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
   plan.overlapped = setup.overlap.texels().size();
   plan.samples = samples;
   plan.nodes = nodes;
-  plan.memory_bytes = expected_memory(texture, plan, options);
+  plan.memory_bytes = expected_memory(textures, plan, options);
   plan.memory_limit = memory_limit(options);
   plan.warnings = std::move(setup.warnings);
   return setup;

@@ -20,7 +20,7 @@ struct FilterSetup : PreparedMesh {
 
 /// Check options, mesh and texture, and find out what the filter will do.
 /// \throw as filter()
-FilterSetup set_up_filter(const TriangleMesh& mesh, const Image& texture,
+FilterSetup set_up_filter(const TriangleMesh& mesh, const SurfaceTextures& textures,
                           const FilterOptions& options);
 
 }  // namespace onmesh

@@ -54,7 +54,7 @@ RowDifference difference_in_row(const Image& a, const Image& b, const TexelMap* 
 ImageDifference difference(const Image& a, const Image& b, const TexelMap* map) {
   if (a.width != b.width || a.height != b.height || a.channels != b.channels)
     throw InputError("the images differ in size: " + size_of(a) + " and " + size_of(b));
-  if (map != nullptr && (map->width != a.width || map->height != a.height))
+  if (map != nullptr && (map->tiles[0].width != a.width || map->tiles[0].height != a.height))
     throw InputError("the texel map is not of the images' size");
   std::vector<RowDifference> rows(std::size_t(a.height));
   parallel_over(rows.size(),

@@ -63,10 +63,11 @@ void measure(const TriangleMesh& mesh, const Image& image, Wrap wrap, Seam& seam
 }  // namespace
 
 SeamError seam_error(const TriangleMesh& mesh, const TexelMap& map, const Image& image) {
-  if (map.width != image.width || map.height != image.height)
+  const TexelTile& tile = map.tiles[0];
+  if (tile.width != image.width || tile.height != image.height)
     throw InputError("the texel map is not of the image's size");
   std::vector<Seam> seams = find_seams(mesh, map);
-  parallel_over(seams.size(), [&](std::size_t i) { measure(mesh, image, map.wrap, seams[i]); });
+  parallel_over(seams.size(), [&](std::size_t i) { measure(mesh, image, tile.wrap, seams[i]); });
   SeamError result;
   double squares = 0;
   for (const Seam& seam : seams) {

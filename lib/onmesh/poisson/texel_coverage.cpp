@@ -57,7 +57,7 @@ class TexelFiller {
     return {face, b / b.sum()};
   }
   bool holds(const TexelClaim& texel, const SurfacePoint& point) const {
-    const TexelClaim square = map_.square_at(disks_.mesh().uv(point));
+    const TexelClaim square = map_.tile_of(point.face).square_at(disks_.mesh().uv(point));
     return square.x == texel.x && square.y == texel.y;
   }
   double room_at(const SurfacePoint& point, ConnectedBall& ball) const {
@@ -69,7 +69,8 @@ class TexelFiller {
     const TexelClaim& texel = map_.claims[claim];
     const Index chart = map_.chart_of_face[lookup_.face_of(claim)];
     const auto triangle = [&](Index f) {
-      return UvTriangle(disks_.mesh(), f, map_.width, map_.height, 0);
+      const TexelTile& tile = map_.tile_of(f);
+      return UvTriangle(disks_.mesh(), f, tile.width, tile.height, 0);
     };
     Index best = lookup_.face_of(claim);
     double most = 0;

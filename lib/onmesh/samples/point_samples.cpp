@@ -60,7 +60,8 @@ Samples point_samples(const TriangleMesh& mesh, const TexelMap& map, const NodeS
   oneapi::tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
     const NodePoint at = locate(surface.overlay, points[i]);
     face_of[i] = at.face;
-    located[i] = make_sample(map.texel_at(mesh.uv(points[i])), at.barycentric, area);
+    located[i] =
+        make_sample(map.tile_of(points[i].face).texel_at(mesh.uv(points[i])), at.barycentric, area);
   });
   return sort_into_faces(std::move(located), face_of,
                          static_cast<Index>(surface.nodes.faces.size()));
@@ -93,8 +94,8 @@ Samples sharing_samples(const TriangleMesh& mesh, const TexelMap& map, const Nod
     const Index claim = claim_of[i];
     const NodePoint at = locate(surface.overlay, kept[i]);
     face_of[i] = at.face;
-    located[i] =
-        make_sample(map.texel(map.claims[claim]), at.barycentric, areas[claim] / sharers[claim]);
+    located[i] = make_sample(map.tile_of(lookup.face_of(claim)).texel(map.claims[claim]),
+                             at.barycentric, areas[claim] / sharers[claim]);
   });
   return sort_into_faces(std::move(located), face_of,
                          static_cast<Index>(surface.nodes.faces.size()));

@@ -56,7 +56,7 @@ void RunSampler::sample_clamped(Index begin, Index end, const Eigen::Matrix3d& t
                                 Sample* out) const {
   for (Index i = begin; i < end; ++i) {
     const Vec3 at = to_node * map_.barycentric(face_, map_.claims[i]);
-    *out++ = make_sample(map_.texel(map_.claims[i]), at, map_.texel_area[face_]);
+    *out++ = make_sample(map_.tile_of(face_).texel(map_.claims[i]), at, map_.texel_area[face_]);
   }
 }
 
@@ -64,11 +64,12 @@ void RunSampler::sample_clamped(Index begin, Index end, const Eigen::Matrix3d& t
 void RunSampler::sample_inside(Index begin, Index end, const Eigen::Matrix3d& to_node,
                                Sample* out) const {
   const TexelClaim* const claims = map_.claims.data() + begin;
+  const TexelTile& tile = map_.tile_of(face_);
   const Index count = end - begin;
   const int left = claims[0].x;
   const Vec3 start = to_node * barycentric(begin),
              slope = to_node * map_.to_barycentric(face_).col(0);
-  const Index texel = map_.texel(claims[0]);
+  const Index texel = tile.texel(claims[0]);
   const auto area = static_cast<float>(map_.texel_area[face_]);
   for (Index i = 0; i < count; ++i) {
     const int columns = claims[i].x - left;
@@ -79,8 +80,8 @@ void RunSampler::sample_inside(Index begin, Index end, const Eigen::Matrix3d& to
     out[i] = {texel + static_cast<Index>(columns), static_cast<float>(b1 * scale),
               static_cast<float>(b2 * scale), area};
   }
-  if (left >= 0 && claims[count - 1].x < map_.width) return;
-  for (Index i = 0; i < count; ++i) out[i].texel = map_.texel(claims[i]);
+  if (left >= 0 && claims[count - 1].x < tile.width) return;
+  for (Index i = 0; i < count; ++i) out[i].texel = tile.texel(claims[i]);
 }
 
 }  // namespace onmesh

@@ -1,0 +1,43 @@
+// The textures of a surface: one, or several that are filtered together.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "onmesh/filter/options.h"
+#include "onmesh/image/image.h"
+#include "onmesh/image/lookup.h"
+#include "onmesh/image/texel_values.h"
+
+namespace onmesh {
+
+/// One of them: that of a material, or a UDIM tile.
+struct TextureTile {
+  const Image* image = nullptr;  ///< outlives the textures
+  Wrap wrap = Wrap::repeat;      ///< how UVs beyond the tile are read
+  int column = 0;                ///< of the unit square of UVs that it fills, from u = 0
+  int row = 0;                   ///< the same from v = 0: UDIM tile 1001 + column + 10 row
+  std::string name;              ///< what messages call it; may be empty if it is the only one
+};
+
+/// All of them, each with its own size and wrap mode. They are one map: colour flows from one into
+/// the other where their faces meet.
+struct SurfaceTextures {
+  std::vector<TextureTile> tiles;
+  /// Per face of the mesh as given, into tiles; kNone = the face carries no texels. Empty = the
+  /// first tile for all faces with UVs.
+  std::vector<Index> tile_of_face;
+
+  /// The values of all texels.
+  ConstTexelValues values() const {
+    ConstTexelValues values;
+    for (const TextureTile& tile : tiles) values.add(*tile.image);
+    return values;
+  }
+};
+
+/// The textures of a surface that has one, as `options.wrap` and `options.faces` say.
+/// \pre image outlives them
+SurfaceTextures one_texture(const Image& image, const FilterOptions& options);
+
+}  // namespace onmesh
