@@ -1,8 +1,12 @@
 // onmesh compare: how two textures differ, and how visible their seams are.
+#include <algorithm>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "atlas.h"
 #include "format.h"
 #include "interruption.h"
 #include "messages.h"
@@ -13,7 +17,8 @@
 #include "report.h"
 #include "shared_options.h"
 #include "subcommands.h"
-#include "texture_choice.h"
+#include "texture_set.h"
+#include "tile_names.h"
 
 namespace onmesh::tools {
 
@@ -22,17 +27,21 @@ Command compare_command() {
   command.name = "compare";
   command.synopsis = "A B [--mesh MESH] [--fail DB] [options]";
   command.summary =
-      "Measures how two textures of one size differ. With their mesh only the texels that its\n"
-      "charts cover count, and the seam error of both is measured: the difference of bilinear\n"
-      "look-ups on both sides of every seam edge.";
+      "Measures how two textures of one size differ, or two sets of them: folders, or names with\n"
+      "<UDIM>, compared file by file. With their mesh only the texels that its charts cover "
+      "count,\n"
+      "and the seam error of both is measured: the difference of bilinear look-ups on both sides "
+      "of\n"
+      "every seam edge, also between textures.";
   command.examples =
       "  onmesh compare cube.png filtered.png\n"
       "  onmesh compare cube.png filtered.png --mesh cube.obj --json\n"
+      "  onmesh compare textures/ filtered/ --mesh figure.obj\n"
       "  onmesh compare expected.exr filtered.exr --fail 60\n";
   auto add = command.options.add_options();
   add("a", text());
   add("b", text());
-  add("mesh", text(), "the mesh that wears the textures");
+  add("mesh", text(), "the mesh that wears the textures; of sets, all that its materials name");
   add("material", text(), "only the faces of this material; all = every face with UVs");
   add("wrap", text("repeat"), "what UVs outside [0,1] mean: repeat or clamp");
   add("fail", text(), "exit with 1 if the PSNR is below this many dB");
@@ -56,76 +65,209 @@ Image read_other(const std::string& path, const std::string& first, const Image&
   return image;
 }
 
-// The faces that filter would have chosen for one of the textures: the other is its result.
-std::vector<bool> faces_wearing(const TriangleMesh& mesh, const std::string& a,
-                                const std::string& b, const std::optional<std::string>& material) {
+/// Two files that are compared.
+struct Pair {
+  std::filesystem::path a, b;
+};
+
+/// The files of a folder, or of a name with a placeholder for the tile.
+std::vector<std::filesystem::path> files_of(const std::string& name) {
+  namespace fs = std::filesystem;
+  const std::optional<TileName> tiles = tile_name(name);
+  const bool is_pattern = tiles && tiles->is_pattern;
+  const fs::path folder = is_pattern ? fs::path(name).parent_path() : fs::path(name);
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(folder.empty() ? fs::path(".") : folder, error)) {
+    if (!entry.is_regular_file(error)) continue;
+    const fs::path path = folder / entry.path().filename();
+    const std::optional<int> udim = is_pattern ? tiles->tile_of(path) : std::optional<int>(0);
+    if (udim && (is_pattern || is_image_name(path))) files.push_back(path);
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) throw FileError(name + ": there are no images");
+  return files;
+}
+
+/// What A and B mean: two files, or the files of two sets with the same names or tiles.
+std::vector<Pair> pairs_of(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const auto is_pattern = [](const std::string& name) {
+    const std::optional<TileName> tiles = tile_name(name);
+    return tiles && tiles->is_pattern;
+  };
+  const bool folders = fs::is_directory(a, error) && fs::is_directory(b, error);
+  const bool patterns = is_pattern(a) && is_pattern(b);
+  if (!folders && !patterns) return {{a, b}};
+  std::vector<Pair> pairs;
+  for (const fs::path& file : files_of(a)) {
+    const fs::path other = folders ? fs::path(b) / file.filename()
+                                   : tile_name(b)->path_of(*tile_name(a)->tile_of(file));
+    if (!fs::exists(other, error))
+      throw FileError(other.string() + ": is missing, " + file.string() + " is there");
+    pairs.push_back({file, other});
+  }
+  if (const std::size_t others = files_of(b).size(); others != pairs.size()) {
+    throw FileError(b + ": has " + count_text(others, "image", "images") + ", " + a + " has " +
+                    std::to_string(pairs.size()));
+  }
+  return pairs;
+}
+
+/// The textures that filter would have chosen for one of two files: the other is its result.
+TextureSet set_of_pair(const TriangleMesh& mesh, const Pair& pair,
+                       const std::optional<std::string>& material) {
   try {
-    return choose_texture(mesh, a, material).faces;
+    return choose_textures(mesh, {{pair.a.string()}, material, {}});
   } catch (const UsageError&) {
     if (material) throw;
   }
   try {
-    return choose_texture(mesh, b, material).faces;
+    return choose_textures(mesh, {{pair.b.string()}, material, {}});
   } catch (const UsageError&) {
-    throw UsageError("--mesh: none of its materials names " + a + " or " + b +
-                     "; choose the faces with --material NAME or --material all");
+    throw UsageError("--mesh: none of its materials names " + pair.a.string() + " or " +
+                     pair.b.string() + "; choose the faces with --material NAME or --material all");
   }
 }
 
+/// Sets are those of the mesh's materials; pairs are found by the names of their files.
+TextureSet set_of_mesh(const TriangleMesh& mesh, std::vector<Pair>& pairs,
+                       const std::optional<std::string>& material) {
+  TextureSet set = choose_textures(mesh, {{}, material, {}});
+  keep_written(set);
+  std::vector<Pair> ordered;
+  for (const SetTexture& texture : set.textures) {
+    const auto same = std::find_if(pairs.begin(), pairs.end(), [&](const Pair& pair) {
+      const auto tile = tile_name(pair.a);
+      return pair.a.stem() == texture.path.stem() ||
+             (texture.udim > 0 && tile && tile->tile_of(pair.a) == texture.udim);
+    });
+    if (same == pairs.end()) {
+      throw UsageError("--mesh: " + texture.path.filename().string() +
+                       " of its materials is not among the textures compared");
+    }
+    ordered.push_back(*same);
+  }
+  pairs = std::move(ordered);
+  return set;
+}
+
 struct Comparison {
-  ImageDifference difference;
+  std::vector<Pair> pairs;
+  std::vector<Image> a, b;             ///< per pair
+  std::vector<ImageDifference> parts;  ///< per pair
+  ImageDifference all;
+  std::size_t worst = 0;                      ///< pair with the largest difference
   std::optional<SeamError> seams_a, seams_b;  ///< with a mesh
+
+  int width() const { return a[worst].width; }
+  std::string worst_file() const {
+    return pairs.size() == 1 ? "" : " of " + pairs[worst].b.filename().string();
+  }
 };
 
 /// On the texels that the mesh's charts cover, and at its seams.
-Comparison compare_on_mesh(const Arguments& arguments, const Image& a, const Image& b) {
-  const InputMesh input = read_input_mesh(arguments.text("mesh"));
-  warn(input.warnings);
-  check_interrupted();
-  const std::vector<bool> faces =
-      faces_wearing(input.cleaned, arguments.argument("a"), arguments.argument("b"),
-                    arguments.optional_text("material"));
-  return naming(input, [&] {
+void compare_on_mesh(const Arguments& arguments, const InputMesh& input, TextureSet set,
+                     Comparison& result) {
+  naming(input, [&] {
+    SurfaceTextures textures = surface_textures(set, result.a, wrap_of(arguments));
+    TriangleMesh mesh = input.cleaned;
+    make_uvs_local(textures.tiles, set.tile_of_face, mesh);
     const TexelMap map =
-        make_texel_map(input.cleaned, a.width, a.height, {wrap_of(arguments), faces});
+        make_texel_map(mesh, texel_tiles(textures.tiles), std::move(set.tile_of_face));
     if (map.claims.empty()) throw InputError("no texel is covered, so there is nothing to compare");
-    Comparison result;
-    result.difference = difference(a, b, &map);
-    check_interrupted();
-    result.seams_a = seam_error(input.cleaned, map, a);
-    result.seams_b = seam_error(input.cleaned, map, b);
-    return result;
+    std::vector<const Image*> a, b;
+    for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+      result.parts.push_back(difference(result.a[i], result.b[i], &map, Index(i)));
+      check_interrupted();
+      a.push_back(&result.a[i]);
+      b.push_back(&result.b[i]);
+    }
+    result.seams_a = seam_error(mesh, map, a);
+    result.seams_b = seam_error(mesh, map, b);
+    return 0;
   });
 }
 
-nlohmann::json comparison_json(const Comparison& result, int width) {
-  const ImageDifference& d = result.difference;
+void read_pairs(Comparison& result) {
+  for (const Pair& pair : result.pairs) {
+    result.a.push_back(read_texture(pair.a));
+    result.b.push_back(read_other(pair.b.string(), pair.a.string(), result.a.back()));
+    if (result.a.back().channels != result.a[0].channels)
+      throw InputError(pair.a.string() + ": has other channels than " + result.pairs[0].a.string());
+    check_interrupted();
+  }
+}
+
+Comparison compare(const Arguments& arguments) {
+  Comparison result;
+  result.pairs = pairs_of(arguments.argument("a"), arguments.argument("b"));
+  if (arguments.has("mesh")) {
+    const auto material = arguments.optional_text("material");
+    const InputMesh input = read_input_mesh(arguments.text("mesh"));
+    warn(input.warnings);
+    check_interrupted();
+    if (result.pairs.size() == 1) {
+      read_pairs(result);
+      TextureSet set = set_of_pair(input.cleaned, result.pairs[0], material);
+      keep_written(set);
+      compare_on_mesh(arguments, input, std::move(set), result);
+    } else {
+      TextureSet set = set_of_mesh(input.cleaned, result.pairs, material);
+      read_pairs(result);
+      compare_on_mesh(arguments, input, std::move(set), result);
+    }
+  } else {
+    read_pairs(result);
+    for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+      result.parts.push_back(
+          naming(result.pairs[i].b.string(), [&] { return difference(result.a[i], result.b[i]); }));
+    }
+  }
+  result.all = together(result.parts, &result.worst);
+  check_interrupted();
+  return result;
+}
+
+nlohmann::json difference_json(const ImageDifference& d, int width) {
   return {{"texels", d.texels},
           {"equal", d.max == 0},
           {"psnr", d.psnr},
           {"rms", d.rms},
           {"max", d.max},
-          {"worst_texel", {d.worst_texel % Index(width), d.worst_texel / Index(width)}},
-          {"seams_a", result.seams_a ? to_json(*result.seams_a) : nlohmann::json()},
-          {"seams_b", result.seams_b ? to_json(*result.seams_b) : nlohmann::json()}};
+          {"worst_texel", {d.worst_texel % Index(width), d.worst_texel / Index(width)}}};
 }
 
-void print_json(const Arguments& arguments, const Image& a, const Comparison& result,
-                std::optional<double> least, bool passed) {
+void print_json(const Arguments& arguments, const Comparison& result, std::optional<double> least,
+                bool passed) {
+  const auto seams = [](const std::optional<SeamError>& s) {
+    return s ? to_json(*s) : nlohmann::json();
+  };
   nlohmann::json json = new_report("compare");
   json["a"] = arguments.argument("a");
   json["b"] = arguments.argument("b");
   json["mesh"] = text_or_null(arguments.optional_text("mesh").value_or(""));
-  json["width"] = a.width;
-  json["height"] = a.height;
-  json["channels"] = a.channels;
-  json.update(comparison_json(result, a.width));
+  json["width"] = result.a[0].width;
+  json["height"] = result.a[0].height;
+  json["channels"] = result.a[0].channels;
+  json.update(difference_json(result.all, result.width()));
+  json["files"] = nlohmann::json::array();
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+    nlohmann::json file = difference_json(result.parts[i], result.a[i].width);
+    file["a"] = result.pairs[i].a.string();
+    file["b"] = result.pairs[i].b.string();
+    json["files"].push_back(std::move(file));
+  }
+  json["seams_a"] = seams(result.seams_a);
+  json["seams_b"] = seams(result.seams_b);
   json["fail"] = least ? nlohmann::json(*least) : nlohmann::json();
   json["passed"] = passed;
   print_report(std::move(json));
 }
 
-void row(const char* name, const std::string& value) {
+void row(const std::string& name, const std::string& value) {
   std::cout << std::left << std::setw(14) << name << value << '\n';
 }
 
@@ -135,15 +277,21 @@ void seam_row(const char* name, const std::optional<SeamError>& s) {
                 format_count(s->edges) + " edges");
 }
 
-void print_text(const Comparison& result, int width) {
-  const ImageDifference& d = result.difference;
+std::string psnr_text(const ImageDifference& d) {
+  return d.max == 0 ? "infinite, all are equal" : format_number(d.psnr) + " dB";
+}
+
+void print_text(const Comparison& result) {
+  const ImageDifference& d = result.all;
+  for (std::size_t i = 0; result.pairs.size() > 1 && i < result.pairs.size(); ++i)
+    row(result.pairs[i].b.filename().string() + "  ", psnr_text(result.parts[i]));
   row("texels", format_count(d.texels));
-  row("PSNR", d.max == 0 ? "infinite, all are equal" : format_number(d.psnr) + " dB");
+  row("PSNR", psnr_text(d));
   row("rms error", format_number(d.rms));
   std::string worst = format_number(d.max);
   if (d.max > 0) {
-    worst += " at column " + std::to_string(d.worst_texel % Index(width)) + ", row " +
-             std::to_string(d.worst_texel / Index(width));
+    worst += " at column " + std::to_string(d.worst_texel % Index(result.width())) + ", row " +
+             std::to_string(d.worst_texel / Index(result.width())) + result.worst_file();
   }
   row("max error", worst);
   seam_row("seams of A", result.seams_a);
@@ -159,28 +307,18 @@ int run_compare(const Arguments& arguments) {
   arguments.require_with({"wrap", "seams", "material"}, "mesh");
   wrap_of(arguments);
 
-  const Image a = read_texture(path_a);
-  const Image b = read_other(path_b, path_a, a);
-  check_interrupted();
-  Comparison result;
-  if (arguments.has("mesh")) {
-    result = compare_on_mesh(arguments, a, b);
-  } else {
-    result.difference = naming(path_b, [&] { return difference(a, b); });
-  }
-  check_interrupted();
-
-  const bool passed = !least || result.difference.psnr >= *least;
+  const Comparison result = compare(arguments);
+  const bool passed = !least || result.all.psnr >= *least;
   if (arguments.flag("json")) {
-    print_json(arguments, a, result, least, passed);
+    print_json(arguments, result, least, passed);
   } else {
-    print_text(result, a.width);
+    print_text(result);
   }
   if (passed) return 0;
   std::cout.flush();
   std::cerr << "onmesh compare: " << path_b << " differs from " << path_a << ": PSNR "
-            << format_number(result.difference.psnr) << " dB is below --fail "
-            << arguments.text("fail") << '\n';
+            << format_number(result.all.psnr) << " dB is below --fail " << arguments.text("fail")
+            << '\n';
   return 1;
 }
 

@@ -1,14 +1,19 @@
 // onmesh distance: geodesic distances from one point, per vertex and per texel.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "atlas.h"
 #include "distance_compare.h"
 #include "distance_request.h"
 #include "format.h"
 #include "interruption.h"
 #include "messages.h"
+#include "onmesh/base/atomic_file.h"
+#include "onmesh/base/text.h"
 #include "onmesh/distance/make_backend.h"
 #include "onmesh/image/image_io.h"
 #include "onmesh/measure/nearby_geodesics.h"
@@ -56,8 +61,12 @@ Command distance_command() {
   add("output,o", text(), "PLY to write: the welded mesh with a distance per vertex");
   add("nodes-ply", text(), "PLY to write: the nodes with a distance each");
   // As with the other commands, -t is the texture that is there; --texture is the result.
-  add("texture", text(), "EXR or TIFF to write: a distance per texel of the atlas");
-  add("atlas,t", text(), "the texture whose texels are meant (default: what the materials name)");
+  add("texture", text(),
+      "EXR or TIFF to write: a distance per texel of the atlas; of several textures a folder/ or a "
+      "name with <UDIM>, {stem}, ...");
+  add("atlas,t", texts(),
+      "a texture whose texels are meant, may be given several times (default: what the materials "
+      "name)");
   add("resolution", text(), "size of the atlas instead, such as 1024x1024");
   add("material", text(), "only texels of this material's faces; all = every face with UVs");
   add("wrap", text("repeat"), "what UVs outside [0,1] mean: repeat or clamp");
@@ -125,10 +134,13 @@ void compare(const DistanceRequest& request, const TriangleMesh& mesh, const Nod
   }
 }
 
-void write_texture(const std::string& path, const Image& image) {
+/// \param names where the tiles' images go
+void write_textures(const OutputNames& names, const std::vector<Image>& images) {
   check_interrupted();
+  std::vector<ImageFile> files;
+  for (std::size_t i = 0; i < images.size(); ++i) files.push_back({names.paths[i], &images[i]});
   std::vector<std::string> warnings;
-  write_image(path, image, {}, &warnings);
+  write_images(files, {}, &warnings);
   warn(warnings);
 }
 
@@ -247,7 +259,18 @@ int run_distance(const Arguments& arguments) {
   check_interrupted();
 
   std::optional<TexelMap> map;
-  if (request.needs_atlas) map = covered_map(input, read_atlas(arguments, mesh, "atlas"));
+  OutputNames textures;
+  std::optional<AtomicFolder> folder;
+  if (request.needs_atlas) {
+    const Atlas atlas = read_atlas(arguments, mesh, "atlas");
+    warn(atlas.set.warnings);
+    map = covered_map(input, atlas);
+    if (arguments.has("texture")) {
+      textures = name_outputs(atlas.set, arguments.text("texture"), ".exr");
+      if (!textures.folder.empty()) folder.emplace(textures.folder);
+      for (const std::filesystem::path& file : textures.paths) check_distance_texture(file);
+    }
+  }
   const DistanceLengths lengths =
       resolve_lengths(request, mesh, map ? map->median_texel_size() : 0);
   check_interrupted();
@@ -273,10 +296,11 @@ int run_distance(const Arguments& arguments) {
   }
   check_interrupted();
   if (arguments.has("texture")) {
-    write_texture(arguments.text("texture"),
-                  request.exact()
-                      ? exact_distance_texture(mesh, *map, result.source, lengths.radius)
-                      : distance_texture(*map, surface, result.distances, lengths.radius));
+    write_textures(textures,
+                   request.exact()
+                       ? exact_distance_texture(mesh, *map, result.source, lengths.radius)
+                       : distance_texture(*map, surface, result.distances, lengths.radius));
+    if (folder) folder->keep();
     result.seconds["texture"] = watch.lap();
   }
   forget_beyond(lengths.radius, result.distances);

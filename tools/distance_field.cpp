@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "atlas.h"
 #include "format.h"
 #include "onmesh/base/face_error.h"
 #include "onmesh/base/triangle.h"
@@ -26,16 +27,26 @@ double longest_path(const NodeMesh& nodes) {
   return sum;
 }
 
-Image empty_texture(const TexelMap& map) {
-  Image image = make_image(map.tiles[0].width, map.tiles[0].height, 1);
-  std::fill(image.pixels.begin(), image.pixels.end(), float(kNaN));
-  return image;
-}
+/// A distance per texel, NaN to begin with.
+class DistanceTexture {
+ public:
+  explicit DistanceTexture(const TexelMap& map) : images_(images_like(map.tiles, 1)) {
+    for (Image& image : images_) {
+      std::fill(image.pixels.begin(), image.pixels.end(), float(kNaN));
+      texels_.add(image);
+    }
+  }
 
-void take_least(Image& image, Index texel, double distance) {
-  float& value = image.texel(texel)[0];
-  if (!(value <= float(distance))) value = float(distance);  // NaN is replaced
-}
+  void take_least(Index texel, double distance) {
+    float& value = *texels_[texel];
+    if (!(value <= float(distance))) value = float(distance);  // NaN is replaced
+  }
+  std::vector<Image> finish() { return std::move(images_); }
+
+ private:
+  std::vector<Image> images_;
+  TexelValues texels_;
+};
 
 }  // namespace
 
@@ -154,9 +165,9 @@ std::vector<double> node_distances(const TriangleMesh& mesh, const NodeSurface& 
   return distances;
 }
 
-Image distance_texture(const TexelMap& map, const NodeSurface& surface,
-                       const std::vector<double>& at_nodes, double radius) {
-  Image image = empty_texture(map);
+std::vector<Image> distance_texture(const TexelMap& map, const NodeSurface& surface,
+                                    const std::vector<double>& at_nodes, double radius) {
+  DistanceTexture texture(map);
   const Samples samples = texel_samples(map, surface);
   for (Index f = 0; f < surface.nodes.faces.size(); ++f) {
     const auto& corners = surface.nodes.faces[f];
@@ -168,28 +179,31 @@ Image distance_texture(const TexelMap& map, const NodeSurface& surface,
         if (b[k] != 0) squared += b[k] * at_nodes[corners[k]] * at_nodes[corners[k]];
       }
       const double d = std::sqrt(std::max(squared, 0.0));
-      if (!std::isnan(squared) && d <= radius) take_least(image, sample.texel, d);
+      if (!std::isnan(squared) && d <= radius) texture.take_least(sample.texel, d);
     }
   }
-  return image;
+  return texture.finish();
 }
 
-Image exact_distance_texture(const TriangleMesh& mesh, const TexelMap& map,
-                             const DistanceSource& source, double radius) {
-  Image image = empty_texture(map);
+std::vector<Image> exact_distance_texture(const TriangleMesh& mesh, const TexelMap& map,
+                                          const DistanceSource& source, double radius) {
+  DistanceTexture texture(map);
   std::vector<SurfacePoint> points;
+  std::vector<Index> texels;
   points.reserve(map.claims.size());
+  texels.reserve(map.claims.size());
   for (Index f = 0; f < mesh.faces.size(); ++f) {
-    for (Index c = map.face_offsets[f]; c < map.face_offsets[f + 1]; ++c)
+    for (Index c = map.face_offsets[f]; c < map.face_offsets[f + 1]; ++c) {
       points.push_back({f, map.barycentric(f, map.claims[c])});
+      texels.push_back(map.tile_of(f).texel(map.claims[c]));
+    }
   }
   const std::vector<double> distances =
       NearbyGeodesics(mesh, radius).distances(source.point, points);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!std::isnan(distances[i]))
-      take_least(image, map.tiles[0].texel(map.claims[i]), distances[i]);
+    if (!std::isnan(distances[i])) texture.take_least(texels[i], distances[i]);
   }
-  return image;
+  return texture.finish();
 }
 
 }  // namespace onmesh::tools

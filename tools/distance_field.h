@@ -44,11 +44,11 @@ std::vector<double> node_distances(const TriangleMesh& mesh, const NodeSurface& 
 void forget_beyond(double radius, std::vector<double>& distances);
 
 /// Distance per texel (the least one where several places share it), interpolated from the nodes;
-/// NaN where no chart covers it or a corner's distance is not known.
-Image distance_texture(const TexelMap& map, const NodeSurface& surface,
-                       const std::vector<double>& at_nodes, double radius);
+/// NaN where no chart covers it or a corner's distance is not known. One image per tile.
+std::vector<Image> distance_texture(const TexelMap& map, const NodeSurface& surface,
+                                    const std::vector<double>& at_nodes, double radius);
 /// The same, exact.
-Image exact_distance_texture(const TriangleMesh& mesh, const TexelMap& map,
-                             const DistanceSource& source, double radius);
+std::vector<Image> exact_distance_texture(const TriangleMesh& mesh, const TexelMap& map,
+                                          const DistanceSource& source, double radius);
 
 }  // namespace onmesh::tools

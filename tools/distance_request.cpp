@@ -4,6 +4,7 @@
 
 #include "onmesh/base/text.h"
 #include "onmesh/image/image_io.h"
+#include "tile_names.h"
 
 namespace onmesh::tools {
 namespace {
@@ -44,16 +45,19 @@ void check_outputs(const Arguments& arguments) {
   for (const char* name : {"output", "nodes-ply"}) {
     if (arguments.has(name)) check_writable_file(arguments.text(name));
   }
-  if (!arguments.has("texture")) return;
-  const std::string path = arguments.text("texture");
-  const std::string extension = lower_case(std::filesystem::path(path).extension().string());
-  if (extension != ".exr" && extension != ".tif" && extension != ".tiff")
-    throw UsageError("--texture: " + path +
-                     " must end in .exr or .tif, other formats hold no distances");
-  check_writable_image(path, make_image(1, 1, 1));
+  if (!arguments.has("texture") || names_several(arguments.text("texture"))) return;
+  check_distance_texture(arguments.text("texture"));
 }
 
 }  // namespace
+
+void check_distance_texture(const std::filesystem::path& path) {
+  const std::string extension = lower_case(path.extension().string());
+  if (extension != ".exr" && extension != ".tif" && extension != ".tiff")
+    throw UsageError("--texture: " + path.string() +
+                     " must end in .exr or .tif, other formats hold no distances");
+  check_writable_image(path, make_image(1, 1, 1));
+}
 
 DistanceRequest read_distance_request(const Arguments& arguments) {
   if (arguments.has("vertex") + arguments.has("uv") + arguments.has("point") != 1)

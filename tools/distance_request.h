@@ -1,6 +1,8 @@
 // What onmesh distance is asked for.
 #pragma once
 
+#include <filesystem>
+
 #include <limits>
 #include <optional>
 
@@ -19,6 +21,9 @@ struct DistanceRequest {
 
   bool exact() const { return method == DistanceMethod::exact; }
 };
+
+/// \throw UsageError for formats that hold no distances; as check_writable_image()
+void check_distance_texture(const std::filesystem::path& path);
 
 /// \throw UsageError for options that do not go together
 /// \throw FileError if an output cannot be written

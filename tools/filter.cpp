@@ -1,14 +1,20 @@
 // onmesh filter: the main job. Reads mesh and texture, filters, writes the texture.
 #include "onmesh/filter/filter.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "atlas.h"
 #include "filter_report.h"
 #include "flags.h"
+#include "inputs.h"
 #include "interruption.h"
 #include "messages.h"
+#include "onmesh/base/atomic_file.h"
 #include "onmesh/base/process_memory.h"
 #include "onmesh/image/image_io.h"
 #include "onmesh/mesh_io/read_mesh.h"
@@ -16,29 +22,42 @@
 #include "shared_options.h"
 #include "stopwatch.h"
 #include "subcommands.h"
-#include "texture_choice.h"
+#include "texture_set.h"
 
 namespace onmesh::tools {
 
 Command filter_command() {
   Command command;
   command.name = "filter";
-  command.synopsis = "MESH [-t TEXTURE] -o OUT [options]";
+  command.synopsis = "MESH [-t TEXTURE]... -o OUT [options]";
   command.summary =
-      "Filters a texture on the surface of the mesh: distances are geodesic, so neither seams nor\n"
-      "stretching of the atlas shows. Lengths are in mesh units (0.2), in texels (8tx) or in "
-      "percent\n"
-      "of the bounding box's diagonal (1%).";
+      "Filters the textures on the surface of the mesh: distances are geodesic, so neither seams "
+      "nor\n"
+      "stretching of the atlas shows. Textures of several materials and UDIM tiles are one "
+      "surface.\n"
+      "Lengths are in mesh units (0.2), in texels (8tx) or in percent of the bounding box's "
+      "diagonal\n"
+      "(1%).";
   command.examples =
       "  onmesh filter model.obj -o smooth.png\n"
       "  onmesh filter model.obj -t skin.png -o skin.png --sigma-spatial 6tx --sigma-range 30/255\n"
       "  onmesh filter model.obj -o blurred.exr --kind gaussian --sigma-spatial 1%\n"
+      "  onmesh filter figure.obj -o smooth/ --material skin\n"
+      "  onmesh filter figure.obj -t 'skin.<UDIM>.png' -o 'smooth.<UDIM>.png' --only 1001,1002\n"
       "  onmesh filter model.obj -o smooth.png --dry-run\n";
   auto add = command.options.add_options();
   add("mesh", text());
-  add("output,o", text(), "the texture to write; may be the input texture itself");
-  add("texture,t", text(), "the texture to filter (default: the one the mesh's material names)");
-  add("material", text(), "filter on the faces of this material; with -t 'all' = on all faces");
+  add("output,o", text(),
+      "what to write: a file (may be the input texture itself), a folder/ for results under their "
+      "own names, or a name with <UDIM>, <UVTILE>, {stem}, {material} or {ext}");
+  add("texture,t", texts(),
+      "a texture to filter, also with <UDIM>, <UVTILE> or {material} in its name; may be given "
+      "several times (default: those that the mesh's materials name)");
+  add("material", text(),
+      "write the texture of this material only, the others are context; with one -t the faces that "
+      "carry it, 'all' = all faces");
+  add("only", text(), "write these UDIM tiles only, the others are context, such as 1001,1003");
+  add("stop-at", text("none"), "none, or material: colour does not flow across materials");
   add("kind", text("bilateral"), "bilateral (keeps edges) or gaussian (blurs)");
   add("sigma-spatial", text("4tx"), "length: width of the filter on the surface");
   add("sigma-range", text("0.1"),
@@ -102,6 +121,8 @@ FilterOptions filter_options(const Arguments& arguments) {
   options.samples = arguments.choice<SampleKind>(
       "samples", {{"texel", SampleKind::texel}, {"poisson", SampleKind::poisson}});
   options.wrap = wrap_of(arguments);
+  options.stop_at_materials =
+      arguments.choice<bool>("stop-at", {{"none", false}, {"material", true}});
   options.overlap = arguments.choice<Overlap>(
       "overlap",
       {{"average", Overlap::average}, {"first", Overlap::first}, {"error", Overlap::error}});
@@ -131,6 +152,8 @@ json options_json(const Arguments& arguments) {
   for (const auto& [name, value] : arguments.values()) {
     if (const auto* text_value = boost::any_cast<std::string>(&value.value())) {
       options[name] = *text_value;
+    } else if (const auto* list = boost::any_cast<std::vector<std::string>>(&value.value())) {
+      options[name] = list->size() == 1 ? json(list->front()) : json(*list);
     } else {
       options[name] = arguments.flag(name);
     }
@@ -138,58 +161,103 @@ json options_json(const Arguments& arguments) {
   return options;
 }
 
-/// Writing over the texture is fine (it is replaced at the end), over the mesh never.
-void check_output(const std::string& output, const std::string& mesh, const Image& texture) {
-  std::error_code error;
-  if (output == mesh || std::filesystem::equivalent(output, mesh, error)) {
-    throw UsageError("--output: " + output + " is the mesh");
-  }
-  check_writable_image(output, texture);
-}
-
-/// Mesh and texture as read, and what is told in the end.
+/// Mesh and textures as read, and what is told in the end.
 struct FilterInputs {
   std::string mesh_path;
   TriangleMesh mesh;
-  TextureChoice choice;
-  Image texture;
+  TextureSet set;
+  std::vector<Image> images;  ///< per texture of the set
+  Wrap wrap = Wrap::repeat;
   std::vector<StageTime> stages;
   std::vector<std::string> warnings;
+
+  SurfaceTextures textures() const { return surface_textures(set, images, wrap); }
 };
+
+/// Writing over a texture is fine (it is replaced at the end), over the mesh never.
+void check_outputs(const OutputNames& outputs, const FilterInputs& inputs) {
+  for (std::size_t i = 0; i < outputs.paths.size(); ++i) {
+    const std::filesystem::path& output = outputs.paths[i];
+    if (output.empty()) continue;
+    std::error_code error;
+    if (output == inputs.mesh_path ||
+        std::filesystem::equivalent(output, inputs.mesh_path, error)) {
+      throw UsageError("--output: " + output.string() + " is the mesh");
+    }
+    check_writable_image(output, inputs.images[i]);
+  }
+}
 
 StageTime stage(const char* name, Stopwatch& watch) {
   return {name, watch.lap(), peak_memory_bytes()};
 }
 
+/// "1001,1003"
+std::vector<int> tiles_of(const Arguments& arguments) {
+  std::vector<int> tiles;
+  if (!arguments.has("only")) return tiles;
+  const std::string list = arguments.text("only");
+  const auto count = std::size_t(std::count(list.begin(), list.end(), ',')) + 1;
+  for (const double number : arguments.numbers("only", count)) {
+    if (number != std::floor(number) || number < 1001 || number > 9999) {
+      throw UsageError("--only: " + list + ": UDIM tiles are 1001 to 9999");
+    }
+    tiles.push_back(int(number));
+  }
+  return tiles;
+}
+
 FilterInputs read_inputs(const Arguments& arguments, Stopwatch& watch) {
   FilterInputs inputs;
   inputs.mesh_path = arguments.argument("mesh");
+  inputs.wrap = wrap_of(arguments);
+  TextureRequest request{{}, arguments.optional_text("material"), tiles_of(arguments)};
+  if (arguments.has("texture")) request.files = arguments.texts("texture");
   inputs.mesh = read_mesh(inputs.mesh_path, &inputs.warnings);
   inputs.stages.push_back(stage("read mesh", watch));
   check_interrupted();
-  inputs.choice = explained_by(inputs.warnings, [&] {
-    return choose_texture(inputs.mesh, arguments.optional_text("texture"),
-                          arguments.optional_text("material"));
+  inputs.set = explained_by(inputs.warnings, [&] {
+    return naming(inputs.mesh_path, [&] { return choose_textures(inputs.mesh, request); });
   });
-  inputs.texture = read_texture(inputs.choice.path);
+  inputs.warnings.insert(inputs.warnings.end(), inputs.set.warnings.begin(),
+                         inputs.set.warnings.end());
+  for (const SetTexture& texture : inputs.set.textures) {
+    inputs.images.push_back(read_texture(texture.path));
+    check_interrupted();
+  }
   inputs.stages.push_back(stage("read texture", watch));
-  check_interrupted();
   return inputs;
+}
+
+json texture_json(const FilterInputs& inputs, std::size_t i) {
+  const SetTexture& file = inputs.set.textures[i];
+  const Image& image = inputs.images[i];
+  return {{"path", file.path.string()},
+          {"reason", inputs.set.reason},
+          {"width", image.width},
+          {"height", image.height},
+          {"channels", image.channels}};
 }
 
 /// The part of the JSON report that plan and run share.
 json report_start(const Arguments& arguments, const FilterInputs& inputs,
-                  const std::string& output) {
+                  const OutputNames& outputs) {
   json out = new_report("filter");
   out["mesh"] = inputs.mesh_path;
-  out["texture"] = {{"path", inputs.choice.path.string()},
-                    {"reason", inputs.choice.reason},
-                    {"width", inputs.texture.width},
-                    {"height", inputs.texture.height},
-                    {"channels", inputs.texture.channels}};
-  out["output"] = text_or_null(output);
   out["options"] = options_json(arguments);
   out["dry_run"] = arguments.flag("dry-run");
+  out["textures"] = json::array();
+  for (std::size_t i = 0; i < inputs.images.size(); ++i) {
+    json one = texture_json(inputs, i);
+    const SetTexture& file = inputs.set.textures[i];
+    one["udim"] = file.udim > 0 ? json(file.udim) : json();
+    one["material"] = text_or_null(file.material);
+    one["output"] = text_or_null(outputs.paths.empty() ? "" : outputs.paths[i].string());
+    out["textures"].push_back(std::move(one));
+  }
+  // As long as there is only one.
+  out["texture"] = inputs.images.size() == 1 ? texture_json(inputs, 0) : json();
+  out["output"] = text_or_null(arguments.has("output") ? arguments.text("output") : "");
   return out;
 }
 
@@ -207,14 +275,14 @@ auto filtering(const FilterInputs& inputs, Work work) {
 void tell_plan(const Arguments& arguments, const FilterOptions& options, FilterInputs& inputs,
                json out) {
   const FilterPlan plan =
-      filtering(inputs, [&] { return plan_filter(inputs.mesh, inputs.texture, options); });
+      filtering(inputs, [&] { return plan_filter(inputs.mesh, inputs.textures(), options); });
   add_warnings(plan.warnings, inputs.warnings);
   if (plan.memory_bytes > plan.memory_limit) {
     inputs.warnings.push_back("the run will be refused: it takes more memory than may be used");
   }
   if (!arguments.flag("quiet")) warn(inputs.warnings);
   if (!arguments.flag("json")) {
-    print_plan(plan, inputs.texture, std::cout);
+    print_plan(plan, inputs.images, std::cout);
     return;
   }
   out["plan"] = to_json(plan);
@@ -223,20 +291,25 @@ void tell_plan(const Arguments& arguments, const FilterOptions& options, FilterI
 }
 
 void filter_and_write(const Arguments& arguments, const FilterOptions& options,
-                      FilterInputs& inputs, const std::string& output, json out, Stopwatch& watch) {
+                      FilterInputs& inputs, const OutputNames& outputs, json out,
+                      Stopwatch& watch) {
   const bool quiet = arguments.flag("quiet");
   FilterReport report;
-  Image result;
+  std::vector<Image> results;
   {
     ProgressBar bar(quiet);
-    result = filtering(inputs, [&] {
-      return filter(inputs.mesh, inputs.texture, options, &report, bar.callback());
+    results = filtering(inputs, [&] {
+      return filter(inputs.mesh, inputs.textures(), options, &report, bar.callback());
     });
   }
   watch.lap();
   check_interrupted();
   add_warnings(report.warnings, inputs.warnings);
-  write_image(output, result, {}, &inputs.warnings);
+  std::vector<ImageFile> files;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (!outputs.paths[i].empty()) files.push_back({outputs.paths[i], &results[i]});
+  }
+  write_images(files, {}, &inputs.warnings);
   report.stages.insert(report.stages.begin(), inputs.stages.begin(), inputs.stages.end());
   report.stages.push_back(stage("write texture", watch));
   if (!quiet) {
@@ -257,18 +330,21 @@ int run_filter(const Arguments& arguments) {
   arguments.argument("mesh");
   const bool dry_run = arguments.flag("dry-run");
   const std::string output = dry_run && !arguments.has("output") ? "" : arguments.text("output");
-  FilterOptions options = filter_options(arguments);
+  const FilterOptions options = filter_options(arguments);
 
   Stopwatch watch;
   FilterInputs inputs = read_inputs(arguments, watch);
-  options.faces = inputs.choice.faces;
-  if (!output.empty()) check_output(output, inputs.mesh_path, inputs.texture);
-  json out = report_start(arguments, inputs, output);
+  const OutputNames outputs = output.empty() ? OutputNames{} : name_outputs(inputs.set, output);
+  std::optional<AtomicFolder> folder;
+  if (!outputs.folder.empty()) folder.emplace(outputs.folder);
+  check_outputs(outputs, inputs);
+  json out = report_start(arguments, inputs, outputs);
   if (dry_run) {
     tell_plan(arguments, options, inputs, std::move(out));
-  } else {
-    filter_and_write(arguments, options, inputs, output, std::move(out), watch);
+    return 0;
   }
+  filter_and_write(arguments, options, inputs, outputs, std::move(out), watch);
+  if (folder) folder->keep();
   return 0;
 }
 

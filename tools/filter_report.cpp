@@ -94,10 +94,15 @@ json to_json(const FilterReport& report) {
       {"stages", stages_json(report.stages)}};
 }
 
-void print_plan(const FilterPlan& plan, const Image& texture, std::ostream& out) {
-  out << "texture       " << texture.width << " x " << texture.height << ", " << texture.channels
-      << " channels; " << format_count(plan.texels) << " texels on the surface, one is "
-      << number_text(plan.texel_size) << " wide\n"
+void print_plan(const FilterPlan& plan, const std::vector<Image>& textures, std::ostream& out) {
+  const Image& first = textures[0];
+  if (textures.size() == 1) {
+    out << "texture       " << first.width << " x " << first.height;
+  } else {
+    out << "textures      " << textures.size();
+  }
+  out << ", " << first.channels << " channels; " << format_count(plan.texels)
+      << " texels on the surface, one is " << number_text(plan.texel_size) << " wide\n"
       << "sigma         " << length_text(plan.sigma_spatial, plan.texel_size) << '\n'
       << "radius        " << length_text(plan.radius, plan.texel_size) << '\n'
       << "nodes         about " << format_count(plan.nodes) << ", "

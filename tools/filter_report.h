@@ -12,7 +12,7 @@ nlohmann::json to_json(const FilterPlan& plan);
 /// Warnings are left out: the caller has some of its own.
 nlohmann::json to_json(const FilterReport& report);
 
-void print_plan(const FilterPlan& plan, const Image& texture, std::ostream& out);
+void print_plan(const FilterPlan& plan, const std::vector<Image>& textures, std::ostream& out);
 /// \param seconds for the whole command
 void print_summary(const FilterReport& report, double seconds, std::ostream& out);
 

@@ -1,10 +1,12 @@
 // onmesh info: what is special or wrong about a mesh, its atlas and its textures.
 #include <iostream>
 
+#include "atlas.h"
 #include "info_findings.h"
 #include "info_output.h"
 #include "interruption.h"
 #include "messages.h"
+#include "shared_options.h"
 #include "subcommands.h"
 
 namespace onmesh::tools {

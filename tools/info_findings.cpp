@@ -1,93 +1,98 @@
 #include "info_findings.h"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
+#include "atlas.h"
 #include "format.h"
 #include "interruption.h"
 #include "messages.h"
-#include "onmesh/image/image_io.h"
+#include "onmesh/base/face_error.h"
+#include "shared_options.h"
 
 namespace onmesh::tools {
 namespace {
 
-std::vector<std::string> named_textures(const TriangleMesh& mesh) {
-  std::vector<bool> used(mesh.materials.size(), false);
-  for (Index f = 0; f < mesh.faces.size(); ++f) {
-    if (mesh.face_materials[f] != kNone && mesh.has_uvs(f)) used[mesh.face_materials[f]] = true;
+/// The facts of every tile of an atlas.
+std::vector<TextureFacts> measure(const InputMesh& input, const Atlas& atlas, Findings& findings) {
+  const TexelMap map = with_face_numbers(input.cleaning.kept, [&] { return atlas.map(); });
+  const std::vector<Index> overlapped = map.overlapped(), crowded = map.crowded();
+  const std::vector<const Image*> images = atlas.image_pointers();
+  std::vector<TextureFacts> all;
+  for (Index i = 0; i < map.tiles.size(); ++i) {
+    const TexelTile& tile = map.tiles[i];
+    const auto in_tile = [&](const std::vector<Index>& texels) {
+      return std::uint64_t(
+          std::lower_bound(texels.begin(), texels.end(), tile.first + tile.size()) -
+          std::lower_bound(texels.begin(), texels.end(), tile.first));
+    };
+    TextureFacts facts;
+    facts.path = atlas.set.textures[i].path.string();
+    facts.width = tile.width;
+    facts.height = tile.height;
+    for (Index t = tile.first; t < tile.first + tile.size(); ++t) {
+      facts.covered += map.coverage[t] == Coverage::covered;
+      facts.touched += map.coverage[t] == Coverage::touched;
+    }
+    facts.overlapped = in_tile(overlapped);
+    facts.crowded = in_tile(crowded);
+    if (facts.covered > 0) facts.texel_size = map.median_texel_size(i);
+    if (!images.empty()) {
+      facts.channels = images[i]->channels;
+      facts.seams = seam_error(atlas.mesh, map, images, i);
+    }
+    all.push_back(std::move(facts));
   }
-  std::vector<std::string> names;
-  for (std::size_t m = 0; m < used.size(); ++m) {
-    const std::string& name = mesh.materials[m].texture;
-    if (used[m] && !name.empty() && std::find(names.begin(), names.end(), name) == names.end())
-      names.push_back(name);
-  }
-  return names;
+  if (images.size() > 1) findings.seams = seam_error(atlas.mesh, map, images);
+  return all;
 }
 
-std::vector<bool> faces_with_texture(const TriangleMesh& mesh, const std::string& texture) {
-  std::vector<bool> faces(mesh.faces.size(), false);
-  for (Index f = 0; f < faces.size(); ++f) {
-    const Index material = mesh.face_materials[f];
-    faces[f] = material != kNone && mesh.materials[material].texture == texture && mesh.has_uvs(f);
-  }
-  return faces;
-}
-
-void measure(const InputMesh& input, const Atlas& atlas, TextureFacts& facts) {
-  const TriangleMesh& mesh = input.cleaned;
-  facts.width = atlas.width;
-  facts.height = atlas.height;
-  facts.channels = atlas.image.channels;
-  const TexelMap map = with_face_numbers(input.cleaning.kept, [&] {
-    return make_texel_map(mesh, atlas.width, atlas.height, atlas.map);
-  });
-  for (const Coverage c : map.coverage) {
-    facts.covered += c == Coverage::covered;
-    facts.touched += c == Coverage::touched;
-  }
-  facts.overlapped = map.overlapped().size();
-  facts.crowded = map.crowded().size();
-  if (facts.covered > 0) facts.texel_size = map.median_texel_size();
-  if (facts.channels > 0) facts.seams = seam_error(mesh, map, atlas.image);
-}
-
-/// Facts that `find` sets. Whatever it meets is a finding, not a failure.
-TextureFacts facts_on(const std::string& path, const std::function<void(TextureFacts&)>& find) {
+/// What there is to tell if the textures cannot be read: about the first that materials name.
+std::vector<TextureFacts> troubled_textures(const InputMesh& input, const std::string& trouble) {
   TextureFacts facts;
-  facts.path = path;
-  try {
-    find(facts);
-  } catch (const FileError& error) {
-    facts.trouble = error.what();
-  } catch (const InputError& error) {
-    facts.trouble = error.what();
+  facts.trouble = trouble;
+  for (const Material& material : input.cleaned.materials) {
+    if (material.texture.empty()) continue;
+    facts.path = material.texture;
+    break;
   }
-  return facts;
+  return {facts};
 }
 
-/// Of the texture or resolution that was given, else of all that the materials name.
-std::vector<TextureFacts> examine_textures(const InputMesh& input, const Arguments& arguments) {
-  std::vector<TextureFacts> textures;
-  if (has_atlas_option(arguments)) {
-    const Atlas atlas = read_atlas(arguments, input.cleaned);
-    textures.push_back(
-        facts_on(atlas.texture, [&](TextureFacts& facts) { measure(input, atlas, facts); }));
-    return textures;
+/// Channels that differ keep the filter from taking the textures as one map.
+void check_channels(const Atlas& atlas, Findings& findings) {
+  for (std::size_t i = 1; i < atlas.images.size(); ++i) {
+    if (atlas.images[i].channels == atlas.images[0].channels) continue;
+    findings.refusal = atlas.set.textures[i].path.string() + " and " +
+                       atlas.set.textures[0].path.string() + " have different channels";
+    return;
   }
-  for (const std::string& name : named_textures(input.cleaned)) {
+}
+
+/// Of the textures or resolution that were given, else of all that the materials name. What is
+/// wrong with those is a finding, not a failure.
+void examine_textures(const InputMesh& input, const Arguments& arguments, Findings& findings) {
+  const bool is_given = has_atlas_option(arguments);
+  const bool any = std::any_of(input.cleaned.materials.begin(), input.cleaned.materials.end(),
+                               [](const Material& m) { return !m.texture.empty(); });
+  if (!is_given && !any) return;
+  try {
+    const Atlas atlas = is_given ? read_atlas(arguments, input.cleaned)
+                                 : read_atlas(choose_textures(input.cleaned, {}), input.cleaned,
+                                              wrap_of(arguments));
+    findings.missing = atlas.set.warnings;
     check_interrupted();
-    textures.push_back(facts_on(name, [&](TextureFacts& facts) {
-      Atlas atlas;
-      atlas.image = read_texture(name);
-      atlas.width = atlas.image.width;
-      atlas.height = atlas.image.height;
-      atlas.map = {wrap_of(arguments), faces_with_texture(input.cleaned, name)};
-      measure(input, atlas, facts);
-    }));
+    check_channels(atlas, findings);
+    if (findings.refusal.empty()) findings.textures = measure(input, atlas, findings);
+  } catch (const UsageError& error) {
+    if (is_given) throw;
+    findings.refusal = error.what();
+  } catch (const FileError& error) {
+    if (is_given) throw;
+    findings.textures = troubled_textures(input, error.what());
+  } catch (const InputError& error) {
+    findings.textures = troubled_textures(input, error.what());
   }
-  return textures;
 }
 
 // What filter refuses before it starts.
@@ -95,12 +100,13 @@ std::string find_refusal(const Findings& findings) {
   if (findings.mesh.faces_without_uvs == findings.mesh.faces) return "no face has UVs";
   if (findings.mesh.charts == 0 || findings.mesh.density_max == 0)
     return "no face has both UVs with an area and an area on the surface";
+  std::uint64_t covered = 0;
   for (const TextureFacts& facts : findings.textures) {
-    if (facts.trouble.empty() && facts.covered > 0) return {};
+    if (!facts.trouble.empty()) return facts.trouble;
+    covered += facts.covered;
   }
-  if (findings.textures.empty()) return {};
-  return findings.textures[0].trouble.empty() ? "no texel is covered"
-                                              : findings.textures[0].trouble;
+  if (!findings.textures.empty() && covered == 0) return "no texel is covered";
+  return findings.refusal;
 }
 
 std::vector<std::string> find_problems(const Findings& findings) {
@@ -116,7 +122,7 @@ std::vector<std::string> find_problems(const Findings& findings) {
                                               {"faces_without_uvs", r.faces_without_uvs > 0},
                                               {"degenerate_uvs", r.degenerate_uvs > 0},
                                               {"overlap", r.overlap_share > 0.001},
-                                              {"textures", lost},
+                                              {"textures", lost || !findings.missing.empty()},
                                               {"refused", !findings.refusal.empty()}};
   std::vector<std::string> problems;
   for (const auto& [name, is_there] : all) {
@@ -133,10 +139,7 @@ std::vector<std::string> find_advice(const InputMesh& input, const Findings& fin
         " faces are fins, pairs back to back that stick out from the surface: filtering leaves "
         "them out, so remove them if they are not meant to be there");
   }
-  if (findings.textures.size() > 1) {
-    lines.push_back("the materials name " + std::to_string(findings.textures.size()) +
-                    " textures: filter them one at a time, chosen with -t or --material");
-  }
+  for (const std::string& line : findings.missing) lines.push_back(line);
   for (const TextureFacts& facts : findings.textures) {
     if (!facts.trouble.empty()) lines.push_back("texture " + facts.trouble);
     if (facts.crowded > 0) {
@@ -155,7 +158,7 @@ Findings examine(const InputMesh& input, const Arguments& arguments) {
   Findings findings;
   findings.mesh = report_mesh(input.welded);
   check_interrupted();
-  findings.textures = examine_textures(input, arguments);
+  examine_textures(input, arguments, findings);
   check_interrupted();
   findings.refusal = find_refusal(findings);
   findings.problems = find_problems(findings);

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "arguments.h"
+#include "inputs.h"
 #include "onmesh/measure/mesh_report.h"
 #include "onmesh/measure/seam_error.h"
-#include "shared_options.h"
 
 namespace onmesh::tools {
 
@@ -19,13 +20,15 @@ struct TextureFacts {
   int width = 0, height = 0, channels = 0;
   std::uint64_t covered = 0, touched = 0, overlapped = 0, crowded = 0;  ///< texels
   double texel_size = 0;                                                ///< median, mesh units
-  std::optional<SeamError> seams;
+  std::optional<SeamError> seams;                                       ///< those with a side in it
 };
 
 /// The findings on one mesh file.
 struct Findings {
   MeshReport mesh;
-  std::vector<TextureFacts> textures;
+  std::vector<TextureFacts> textures;  ///< per material's image and UDIM tile
+  std::vector<std::string> missing;    ///< what faces of some tiles lack, a line each
+  std::optional<SeamError> seams;      ///< of several textures in all
   std::vector<std::string> advice;
   std::vector<std::string> problems;  ///< short fixed names of what --strict minds
   std::string refusal;                ///< why filter will not take it; empty if it will

@@ -125,6 +125,12 @@ void print_materials(const std::vector<Material>& materials) {
   }
 }
 
+void print_seams(const SeamError& seams) {
+  row("seams",
+      format_count(seams.edges) + " edges, " + format_number(seams.length) + " mesh units");
+  row("seam error", "rms " + format_number(seams.rms) + ", max " + format_number(seams.max));
+}
+
 void print_texture(const TextureFacts& t) {
   std::cout << (t.path.empty() ? "at " : "texture " + t.path + ", ") << t.width << " x "
             << t.height;
@@ -138,10 +144,7 @@ void print_texture(const TextureFacts& t) {
   row("crowded texels", format_count(t.crowded));
   row("overlapped texels", format_count(t.overlapped));
   row("texel size", format_number(t.texel_size) + " mesh units (median)");
-  if (!t.seams) return;
-  row("seams",
-      format_count(t.seams->edges) + " edges, " + format_number(t.seams->length) + " mesh units");
-  row("seam error", "rms " + format_number(t.seams->rms) + ", max " + format_number(t.seams->max));
+  if (t.seams) print_seams(*t.seams);
 }
 
 }  // namespace
@@ -161,6 +164,7 @@ void print_json(const InputMesh& input, const Findings& findings) {
   }
   json["textures"] = nlohmann::json::array();
   for (const TextureFacts& t : findings.textures) json["textures"].push_back(texture_json(t));
+  json["seams"] = findings.seams ? to_json(*findings.seams) : nlohmann::json();
   json["warnings"] = input.warnings;
   json["advice"] = findings.advice;
   json["problems"] = findings.problems;
@@ -177,6 +181,10 @@ void print_text(const InputMesh& input, const Findings& findings) {
   print_materials(input.welded.materials);
   for (const TextureFacts& t : findings.textures) {
     if (t.trouble.empty()) print_texture(t);
+  }
+  if (findings.seams) {
+    std::cout << "textures in all\n";
+    print_seams(*findings.seams);
   }
   if (!findings.advice.empty()) std::cout << "advice\n";
   for (const std::string& line : findings.advice) std::cout << "  - " << line << '\n';

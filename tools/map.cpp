@@ -2,11 +2,14 @@
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "atlas.h"
 #include "format.h"
 #include "inputs.h"
 #include "interruption.h"
 #include "messages.h"
+#include "onmesh/base/atomic_file.h"
 #include "onmesh/base/text.h"
 #include "onmesh/image/image_io.h"
 #include "report.h"
@@ -18,7 +21,7 @@ namespace onmesh::tools {
 Command map_command() {
   Command command;
   command.name = "map";
-  command.synopsis = "MESH (-t TEXTURE | --resolution WxH) -o MAP.exr [options]";
+  command.synopsis = "MESH (-t TEXTURE... | --resolution WxH) -o MAP.exr [options]";
   command.summary =
       "Writes where on the surface every texel lies, as EXR with 32-bit float channels:\n"
       "  face          triangle of the file, from 0; -1 = none\n"
@@ -34,7 +37,8 @@ Command map_command() {
       "  onmesh map cube.obj --resolution 1024x1024 -o map.exr --json\n";
   auto add = command.options.add_options();
   add("mesh", text());
-  add("output,o", text(), "the EXR to write");
+  add("output,o", text(),
+      "the EXR to write; of several textures a folder/ or a name with <UDIM>, {stem}, ...");
   add_atlas_options(command.options);
   add("json", flag(), "statistics as JSON on stdout");
   add("quiet", flag(), "no summary");
@@ -49,17 +53,22 @@ enum Channel { kX, kY, kZ, kArea, kB0, kB1, kB2, kChart, kClaims, kCoverage, kFa
 const std::vector<std::string> kNames = {"x",  "y",     "z",      "area",     "b0",  "b1",
                                          "b2", "chart", "claims", "coverage", "face"};
 
-Image draw(const TriangleMesh& mesh, const TexelMap& map, const std::vector<Index>& file_face) {
-  Image image = make_image(map.tiles[0].width, map.tiles[0].height, kChannels);
-  image.channel_names = kNames;
+std::vector<Image> draw(const TriangleMesh& mesh, const TexelMap& map,
+                        const std::vector<Index>& file_face) {
+  std::vector<Image> images = images_like(map.tiles, kChannels);
+  TexelValues texels;
+  for (Image& image : images) {
+    image.channel_names = kNames;
+    texels.add(image);
+  }
   for (Index i = 0; i < map.coverage.size(); ++i) {
-    float* const texel = image.texel(i);
+    float* const texel = texels[i];
     texel[kFace] = texel[kChart] = -1;
     texel[kCoverage] = float(map.coverage[i]);
   }
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     for (Index c = map.face_offsets[f]; c < map.face_offsets[f + 1]; ++c) {
-      float* const texel = image.texel(map.tiles[0].texel(map.claims[c]));
+      float* const texel = texels[map.tile_of(f).texel(map.claims[c])];
       if (texel[kClaims]++ > 0) continue;
       const Vec3 b = map.barycentric(f, map.claims[c]);
       const Vec3 p = mesh.position({f, b});
@@ -72,7 +81,7 @@ Image draw(const TriangleMesh& mesh, const TexelMap& map, const std::vector<Inde
       }
     }
   }
-  return image;
+  return images;
 }
 
 // Cleaning turns faces over; barycentric coordinates are those of the file's corners.
@@ -85,69 +94,114 @@ void restore_corner_order(const InputMesh& input, TriangleMesh& mesh) {
   }
 }
 
-/// What the map comes to.
+/// What the map of a tile comes to.
 struct Statistics {
   std::uint64_t covered = 0, touched = 0, overlapped = 0;
   double texel_size = 0;
 };
 
-Statistics statistics(const TexelMap& map) {
-  const auto count = [&](Coverage c) {
-    return std::uint64_t(std::count(map.coverage.begin(), map.coverage.end(), c));
-  };
-  return {count(Coverage::covered), count(Coverage::touched), map.overlapped().size(),
-          map.median_texel_size()};
+/// Per tile.
+std::vector<Statistics> statistics(const TexelMap& map) {
+  std::vector<Statistics> all;
+  const std::vector<Index> overlapped = map.overlapped();
+  for (Index i = 0; i < map.tiles.size(); ++i) {
+    const TexelTile& tile = map.tiles[i];
+    const auto begin = map.coverage.begin() + std::ptrdiff_t(tile.first);
+    const auto count = [&](Coverage c) {
+      return std::uint64_t(std::count(begin, begin + std::ptrdiff_t(tile.size()), c));
+    };
+    const auto first = std::lower_bound(overlapped.begin(), overlapped.end(), tile.first);
+    const auto last = std::lower_bound(first, overlapped.end(), tile.first + tile.size());
+    all.push_back({count(Coverage::covered), count(Coverage::touched), std::uint64_t(last - first),
+                   map.median_texel_size(i)});
+  }
+  return all;
 }
 
-void print_json(const std::string& path, const std::string& output, const Atlas& atlas,
-                const TexelMap& map, const Statistics& found) {
+nlohmann::json tile_json(const SetTexture& texture, const TexelTile& tile,
+                         const Statistics& found) {
+  return {{"texture", text_or_null(texture.path.string())},
+          {"width", tile.width},
+          {"height", tile.height},
+          {"covered", found.covered},
+          {"touched", found.touched},
+          {"overlapped", found.overlapped},
+          {"texel_size", found.texel_size}};
+}
+
+void print_json(const std::string& path, const OutputNames& outputs, const Atlas& atlas,
+                const TexelMap& map) {
+  const std::vector<Statistics> found = statistics(map);
   nlohmann::json json = new_report("map");
-  json.update({{"mesh", path},
-               {"output", output},
-               {"texture", text_or_null(atlas.texture)},
-               {"width", map.tiles[0].width},
-               {"height", map.tiles[0].height},
-               {"charts", map.charts},
-               {"claims", map.claims.size()},
-               {"covered", found.covered},
-               {"touched", found.touched},
-               {"overlapped", found.overlapped},
-               {"texel_size", found.texel_size},
-               {"channels", kNames}});
+  json["mesh"] = path;
+  json["charts"] = map.charts;
+  json["claims"] = map.claims.size();
+  json["channels"] = kNames;
+  json["tiles"] = nlohmann::json::array();
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    nlohmann::json tile = tile_json(atlas.set.textures[i], map.tiles[i], found[i]);
+    tile["output"] = outputs.paths[i].string();
+    if (found.size() == 1) json.update(tile);
+    json["tiles"].push_back(std::move(tile));
+  }
   print_report(std::move(json));
+}
+
+void print_text(const OutputNames& outputs, const TexelMap& map) {
+  const std::vector<Statistics> found = statistics(map);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    std::cerr << outputs.paths[i].string() << ": " << map.tiles[i].width << " x "
+              << map.tiles[i].height << ", " << format_count(found[i].covered)
+              << " texels covered, " << format_count(found[i].touched) << " touched, "
+              << format_count(found[i].overlapped) << " shared, texel size "
+              << format_number(found[i].texel_size) << '\n';
+  }
+  std::cerr << format_count(map.charts) << " charts\n";
+}
+
+/// \throw UsageError unless all are EXR
+void check_outputs(const OutputNames& outputs) {
+  for (const std::filesystem::path& path : outputs.paths) {
+    if (lower_case(path.extension().string()) != ".exr") {
+      throw UsageError("--output: " + path.string() +
+                       " must end in .exr, only EXR names its channels");
+    }
+    check_writable_image(path, make_image(1, 1, kChannels));
+  }
 }
 
 }  // namespace
 
 int run_map(const Arguments& arguments) {
   const std::string path = arguments.argument("mesh"), output = arguments.text("output");
-  if (lower_case(std::filesystem::path(output).extension().string()) != ".exr")
-    throw UsageError("--output: " + output + " must end in .exr, only EXR names its channels");
-  check_writable_image(output, make_image(1, 1, kChannels));
   wrap_of(arguments);
 
   InputMesh input = read_input_mesh(path);
   warn(input.warnings);
   check_interrupted();
   Atlas atlas = read_atlas(arguments, input.cleaned);
-  atlas.image = {};
-  restore_corner_order(input, input.cleaned);
+  atlas.images = {};
+  warn(atlas.set.warnings);
+  const OutputNames outputs = name_outputs(atlas.set, output, ".exr");
+  std::optional<AtomicFolder> folder;
+  if (!outputs.folder.empty()) folder.emplace(outputs.folder);
+  check_outputs(outputs);
+  restore_corner_order(input, atlas.mesh);
   check_interrupted();
   const TexelMap map = covered_map(input, atlas);
   if (input.welded.faces.size() > (1U << 24))
     warn(output + ": face numbers beyond 16,777,216 are rounded, the channels are 32-bit float");
   check_interrupted();
-  write_image(output, draw(input.cleaned, map, input.cleaning.kept));
+  const std::vector<Image> images = draw(atlas.mesh, map, input.cleaning.kept);
+  std::vector<ImageFile> files;
+  for (std::size_t i = 0; i < images.size(); ++i) files.push_back({outputs.paths[i], &images[i]});
+  write_images(files);
+  if (folder) folder->keep();
 
-  const Statistics found = statistics(map);
   if (arguments.flag("json")) {
-    print_json(path, output, atlas, map, found);
+    print_json(path, outputs, atlas, map);
   } else if (!arguments.flag("quiet")) {
-    std::cerr << output << ": " << map.tiles[0].width << " x " << map.tiles[0].height << ", "
-              << format_count(found.covered) << " texels covered in " << format_count(map.charts)
-              << " charts, " << format_count(found.touched) << " touched, "
-              << format_count(found.overlapped) << " shared, texel size "
-              << format_number(found.texel_size) << '\n';
+    print_text(outputs, map);
   }
   return 0;
 }

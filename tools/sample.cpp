@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "atlas.h"
 #include "format.h"
 #include "interruption.h"
 #include "messages.h"
@@ -60,6 +61,7 @@ namespace {
 struct Plan {
   PoissonOptions options;
   std::optional<TexelMap> map;
+  TriangleMesh mesh;    // what the map is of: with UVs of each face's own tile
   bool graded = false;  // the spacing follows the texels
 };
 
@@ -69,9 +71,11 @@ Plan make_plan(const Arguments& arguments, const TriangleMesh& mesh) {
   const std::optional<Length> length = arguments.optional_length("spacing");
   const bool by_texels = length ? length->unit == Length::Unit::texel : !arguments.has("r-coef");
   if (by_texels || has_atlas_option(arguments) || arguments.has("material")) {
-    const Atlas atlas = read_atlas(arguments, mesh);
-    plan.options.faces = atlas.map.faces;
-    plan.map = make_texel_map(mesh, atlas.width, atlas.height, atlas.map);
+    Atlas atlas = read_atlas(arguments, mesh);
+    warn(atlas.set.warnings);
+    for (const Index tile : atlas.set.tile_of_face) plan.options.faces.push_back(tile != kNone);
+    plan.map = atlas.map();
+    plan.mesh = std::move(atlas.mesh);
     if (plan.map->claims.empty()) {
       throw InputError(mesh.uvs.empty() ? "the mesh has no UVs, so there are no texels to hit"
                                         : "no texel lies on a face with area");
@@ -89,7 +93,7 @@ Plan make_plan(const Arguments& arguments, const TriangleMesh& mesh) {
 }
 
 GradedSamples draw(const TriangleMesh& mesh, const Plan& plan, const Progress& progress) {
-  if (plan.graded) return texel_poisson_samples(mesh, *plan.map, plan.options, progress);
+  if (plan.graded) return texel_poisson_samples(plan.mesh, *plan.map, plan.options, progress);
   GradedSamples samples;
   samples.points = poisson_samples(mesh, plan.options, progress);
   samples.spacings.assign(samples.points.size(), plan.options.spacing);
@@ -108,7 +112,7 @@ Hits count_hits(const TriangleMesh& mesh, const TexelMap& map,
   for (const SurfacePoint& s : samples) {
     if (map.chart_of_face[s.face] == kNone) continue;
     const Index claim = hits_of.find(s.face, mesh.uv(s));
-    if (claim != kNone) is_hit[map.tiles[0].texel(map.claims[claim])] = true;
+    if (claim != kNone) is_hit[map.tile_of(hits_of.face_of(claim)).texel(map.claims[claim])] = true;
   }
   Hits hits;
   for (std::size_t t = 0; t < is_hit.size(); ++t) {
@@ -192,7 +196,7 @@ Findings examine(const TriangleMesh& mesh, const Plan& plan, const GradedSamples
   for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
     if (faces.empty() || faces[f]) found.area += mesh.face_area(f);
   }
-  if (plan.map) found.hits = count_hits(mesh, *plan.map, samples.points);
+  if (plan.map) found.hits = count_hits(plan.mesh, *plan.map, samples.points);
   return found;
 }
 

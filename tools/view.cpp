@@ -1,7 +1,9 @@
 // onmesh view: a picture of the textured model, before and after, or of distances.
 #include <cmath>
-#include <map>
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <set>
 
 #include "interruption.h"
 #include "messages.h"
@@ -12,6 +14,8 @@
 #include "ply_column.h"
 #include "shared_options.h"
 #include "subcommands.h"
+#include "texture_set.h"
+#include "tile_names.h"
 
 namespace onmesh::tools {
 
@@ -27,14 +31,19 @@ Command view_command() {
   command.examples =
       "  onmesh view cube.obj -t cube.png --after filtered.png -o picture.png\n"
       "  onmesh view cube.obj -t cube.png --after a.png --after b.png --size 400 -o three.png\n"
+      "  onmesh view figure.obj --after smooth/ -o figure.png\n"
       "  onmesh view --flat -t cube.png --after filtered.png -o textures.png\n"
       "  onmesh view cube.obj --azimuth -30 --elevation 60 --no-light -o top.png\n"
       "  onmesh view cube.obj --distance-ply distance.ply --isolines 0.1 -o distance.png\n";
   auto add = command.options.add_options();
   add("mesh", text());
   add("output,o", text(), "the picture to write");
-  add("texture,t", text(), "texture for all faces (default: what the mesh's materials name)");
-  add("after", texts(), "another texture, shown beside the first; may be given several times");
+  add("texture,t", texts(),
+      "texture for all faces; several, or a name with <UDIM> or {material}, for those that wear "
+      "them (default: what the mesh's materials name)");
+  add("after", texts(),
+      "another texture, or a folder or name with <UDIM>, {stem} or {material} for several, shown "
+      "beside the first; may be given several times");
   add("flat", flag(), "show the textures themselves, without a mesh");
   add("distance-ply", text(),
       "PLY with a scalar per vertex of the mesh, as onmesh distance writes it");
@@ -103,41 +112,99 @@ void fit_to_scalar(TriangleMesh& mesh, std::size_t values, const std::string& pa
                      " vertices, the mesh has " + std::to_string(as_read));
 }
 
-// The textures that the mesh's materials name, each read once.
-class MaterialTextures {
+/// A mesh with the textures that it wears.
+class WornTextures {
  public:
-  explicit MaterialTextures(const TriangleMesh& mesh) {
-    for (const Material& material : mesh.materials) {
-      if (material.texture.empty()) {
-        pointers.push_back(nullptr);
-        continue;
-      }
-      const auto [entry, is_new] = images_.try_emplace(material.texture);
-      if (is_new) entry->second = read(material.texture);
-      pointers.push_back(entry->second.get());
-    }
+  /// \param mesh outlives this
+  explicit WornTextures(const TriangleMesh& mesh) {
+    set_.tile_of_face.assign(mesh.faces.size(), kNone);
   }
-  std::vector<const Image*> pointers;
+
+  void add(const TextureSet& set);
+  /// Ready to be drawn: with UVs of each face's own tile.
+  TriangleMesh local(const TriangleMesh& mesh) const;
+  const TextureSet& set() const { return set_; }
+  /// Images of these paths, one per texture of the set. A model is worth seeing even if one of its
+  /// textures got lost: that part stays grey.
+  std::vector<std::unique_ptr<Image>> read(const std::vector<std::filesystem::path>& paths) const;
+  RenderColour colours(const std::vector<std::unique_ptr<Image>>& images) const;
 
  private:
-  // A model is worth seeing even if one of its textures got lost: that part stays grey.
-  static std::unique_ptr<Image> read(const std::string& path) {
+  TextureSet set_;
+};
+
+void WornTextures::add(const TextureSet& set) {
+  const auto first = Index(set_.textures.size());
+  set_.textures.insert(set_.textures.end(), set.textures.begin(), set.textures.end());
+  for (Index f = 0; f < set.tile_of_face.size(); ++f) {
+    if (set.tile_of_face[f] != kNone) set_.tile_of_face[f] = first + set.tile_of_face[f];
+  }
+}
+
+TriangleMesh WornTextures::local(const TriangleMesh& mesh) const {
+  std::vector<TextureTile> tiles;
+  for (const SetTexture& texture : set_.textures)
+    tiles.push_back({nullptr, Wrap::repeat, texture.column(), texture.row(), {}});
+  TriangleMesh result = mesh;
+  if (!tiles.empty()) make_uvs_local(tiles, set_.tile_of_face, result);
+  return result;
+}
+
+std::vector<std::unique_ptr<Image>> WornTextures::read(
+    const std::vector<std::filesystem::path>& paths) const {
+  std::vector<std::unique_ptr<Image>> images;
+  for (const std::filesystem::path& path : paths) {
+    images.push_back(nullptr);
+    check_interrupted();
     try {
-      return std::make_unique<Image>(read_texture(path));
+      images.back() = std::make_unique<Image>(read_texture(path));
     } catch (const FileError& error) {
       warn(error.what());
     } catch (const InputError& error) {
       warn(error.what());
     }
-    return nullptr;
   }
+  return images;
+}
 
-  std::map<std::string, std::unique_ptr<Image>> images_;
-};
+RenderColour WornTextures::colours(const std::vector<std::unique_ptr<Image>>& images) const {
+  RenderColour colour;
+  for (const Index tile : set_.tile_of_face)
+    colour.face_textures.push_back(tile == kNone ? nullptr : images[tile].get());
+  return colour;
+}
+
+/// What -t says, or what the mesh's materials name.
+WornTextures worn_textures(const TriangleMesh& mesh, const std::vector<std::string>& files) {
+  WornTextures worn(mesh);
+  if (!files.empty()) {
+    const TextureSet set = choose_textures(mesh, {files, {}, {}});
+    warn(set.warnings);
+    worn.add(set);
+    return worn;
+  }
+  std::set<std::string> done;
+  for (const Material& material : mesh.materials) {
+    if (material.texture.empty() || !done.insert(material.texture).second) continue;
+    try {
+      const TextureSet set = choose_textures(mesh, {{material.texture}, {}, {}});
+      warn(set.warnings);
+      worn.add(set);
+    } catch (const FileError& error) {
+      warn(error.what());
+    } catch (const InputError& error) {
+      warn(error.what());
+    } catch (const UsageError&) {
+      // No face wears it.
+    }
+  }
+  return worn;
+}
 
 std::vector<Image> flat_pictures(const Arguments& arguments, const RenderOptions& options) {
-  std::vector<std::string> paths = arguments.texts("after");
-  paths.insert(paths.begin(), arguments.text("texture"));
+  if (!arguments.has("texture")) throw UsageError("--texture is missing");
+  std::vector<std::string> paths = arguments.texts("texture");
+  for (const std::string& after : arguments.texts("after")) paths.push_back(after);
   std::vector<Image> pictures;
   for (const std::string& path : paths) {
     pictures.push_back(view_texture(read_texture(path), options.width, options.supersampling));
@@ -146,28 +213,62 @@ std::vector<Image> flat_pictures(const Arguments& arguments, const RenderOptions
   return pictures;
 }
 
-// The first picture of the model: coloured by a scalar, by material, or by textures.
-Image first_picture(const TriangleMesh& mesh, const std::vector<double>& scalar,
-                    const Arguments& arguments, const RenderOptions& options) {
+/// One texture for all faces.
+Image picture_with(const TriangleMesh& mesh, const std::string& path,
+                   const RenderOptions& options) {
+  const Image texture = read_texture(path);
   RenderColour colour;
-  colour.by_material = arguments.flag("face-materials");
-  if (arguments.has("distance-ply")) {
-    colour.scalar = &scalar;
-    if (arguments.has("isolines")) {
-      const double step = arguments.number("isolines", 0, 1e300);
-      colour.isoline_step = step == 0 ? -1 : step;
-    }
-    return render(mesh, colour, options);
-  }
-  if (arguments.has("texture")) {
-    const Image texture = read_texture(arguments.text("texture"));
-    colour.texture = &texture;
-    return render(mesh, colour, options);
-  }
-  if (colour.by_material) return render(mesh, colour, options);
-  const MaterialTextures textures(mesh);
-  colour.material_textures = textures.pointers;
+  colour.texture = &texture;
   return render(mesh, colour, options);
+}
+
+/// Coloured by a scalar.
+Image scalar_picture(const TriangleMesh& mesh, const std::vector<double>& scalar,
+                     const Arguments& arguments, const RenderOptions& options) {
+  RenderColour colour;
+  colour.scalar = &scalar;
+  if (arguments.has("isolines")) {
+    const double step = arguments.number("isolines", 0, 1e300);
+    colour.isoline_step = step == 0 ? -1 : step;
+  }
+  return render(mesh, colour, options);
+}
+
+/// The model with its textures, and with each of --after.
+std::vector<Image> textured_pictures(const TriangleMesh& mesh, const Arguments& arguments,
+                                     const RenderOptions& options) {
+  std::vector<std::string> files;
+  if (arguments.has("texture")) files = arguments.texts("texture");
+  const bool is_one = files.size() == 1 && !names_several(files[0]);
+  std::vector<std::string> afters = arguments.texts("after");
+  std::vector<Image> pictures;
+  std::optional<WornTextures> worn;
+  std::optional<TriangleMesh> local;
+  const auto wear = [&] {
+    if (worn) return;
+    worn = worn_textures(mesh, is_one ? std::vector<std::string>{} : files);
+    local = worn->local(mesh);
+  };
+  if (is_one) {
+    pictures.push_back(picture_with(mesh, files[0], options));
+  } else {
+    wear();
+    std::vector<std::filesystem::path> paths;
+    for (const SetTexture& texture : worn->set().textures) paths.push_back(texture.path);
+    const auto images = worn->read(paths);
+    pictures.push_back(render(*local, worn->colours(images), options));
+  }
+  for (const std::string& after : afters) {
+    check_interrupted();
+    if (!names_several(after)) {
+      pictures.push_back(picture_with(mesh, after, options));
+      continue;
+    }
+    wear();
+    const auto images = worn->read(name_outputs(worn->set(), after).paths);
+    pictures.push_back(render(*local, worn->colours(images), options));
+  }
+  return pictures;
 }
 
 std::vector<Image> model_pictures(const std::string& path, const Arguments& arguments,
@@ -186,15 +287,11 @@ std::vector<Image> model_pictures(const std::string& path, const Arguments& argu
   }
   check_interrupted();
 
-  std::vector<Image> pictures{first_picture(mesh, scalar, arguments, options)};
-  for (const std::string& after : arguments.texts("after")) {
-    check_interrupted();
-    const Image texture = read_texture(after);
-    RenderColour colour;
-    colour.texture = &texture;
-    pictures.push_back(render(mesh, colour, options));
-  }
-  return pictures;
+  if (arguments.has("distance-ply")) return {scalar_picture(mesh, scalar, arguments, options)};
+  if (!arguments.flag("face-materials")) return textured_pictures(mesh, arguments, options);
+  RenderColour colour;
+  colour.by_material = true;
+  return {render(mesh, colour, options)};
 }
 
 }  // namespace

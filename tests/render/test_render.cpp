@@ -174,22 +174,21 @@ TEST_CASE("the colour map rises in lightness without leaving the range", "[rende
   }
 }
 
-TEST_CASE("faces are drawn with the texture of their own material", "[render]") {
-  TriangleMesh mesh = make_plane(2, 1);
-  mesh.materials = {{"left", ""}, {"right", ""}};
-  for (Index f = 0; f < mesh.faces.size(); ++f) {
-    const auto p = mesh.corners(f);
-    mesh.face_materials[f] = (p[0] + p[1] + p[2]).x() / 3 < 0.5 ? 0 : 1;
-  }
+TEST_CASE("faces are drawn with textures of their own", "[render]") {
+  const TriangleMesh mesh = make_plane(2, 1);
   Image left = make_image(1, 1, 3), right = make_image(1, 1, 3);
   left.pixels = {1, 0, 0};
   right.pixels = {0, 1, 0};
   RenderColour colour;
-  colour.material_textures = {&left, &right};
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    const auto p = mesh.corners(f);
+    colour.face_textures.push_back((p[0] + p[1] + p[2]).x() / 3 < 0.5 ? &left : &right);
+  }
   const Image picture = render(mesh, colour, facing(32));
   CHECK(pixel(picture, 8, 16) == Vec3(1, 0, 0));
   CHECK(pixel(picture, 24, 16) == Vec3(0, 1, 0));
-  colour.material_textures = {&left, nullptr};
+  std::replace(colour.face_textures.begin(), colour.face_textures.end(),
+               static_cast<const Image*>(&right), static_cast<const Image*>(nullptr));
   const Vec3 grey = pixel(render(mesh, colour, facing(32)), 24, 16);
   CHECK(grey[0] == grey[1]);
   CHECK(grey[0] == grey[2]);

@@ -41,6 +41,7 @@ TEST_CASE("info reports a sound mesh as such, under fixed names", "[tools][info]
                                                "peak_memory_bytes",
                                                "problems",
                                                "refusal",
+                                               "seams",
                                                "surface_area",
                                                "textures",
                                                "uv_max",

@@ -103,11 +103,13 @@ TEST_CASE("files that cannot be read or written exit with 4", "[tools]") {
   check_refused(space, "view m.obj -o no/p.png", 4, "no/p.png: ");
   check_refused(space, "filter m.obj -o no/o.png", 4, "no/o.png: ");
   check_refused(space, "sample m.obj -t m.png -o no/s.ply", 4, "no/s.ply: ");
-  check_refused(space, "filter m.obj -o folder.obj", 4, "folder.obj: cannot write here");
+  std::filesystem::create_directory(space / "folder.png");
+  check_refused(space, "view m.obj -o folder.png", 4, "folder.png: cannot write here");
   std::ofstream(space / "udim.mtl") << "newmtl m\nmap_Kd skin.<UDIM>.png\n";
   std::ofstream(space / "udim.obj") << "mtllib udim.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
                                        "vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";
-  check_refused(space, "filter udim.obj -o o.png", 4, "UDIM tiles");
+  check_refused(space, "filter udim.obj -o o.png", 4,
+                "skin.<UDIM>.png: no file for any of the tiles");
 }
 
 TEST_CASE("wrong input exits with 3 and names the file", "[tools]") {

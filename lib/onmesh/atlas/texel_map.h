@@ -66,7 +66,7 @@ struct TexelTile {
 class TexelMap {
  public:
   std::vector<TexelTile> tiles;     ///< at least one
-  std::vector<Index> tile_of_face;  ///< into tiles; empty = all in the first
+  std::vector<Index> tile_of_face;  ///< into tiles, or kNone; empty = all in the first
   std::vector<Index> face_offsets;  ///< faces + 1, into claims
   LargeArray<TexelClaim> claims;    ///< those of face f are [face_offsets[f], face_offsets[f + 1])
   /// Per face the surface area of one whole texel, mesh units squared; 0 = not rasterised.
@@ -75,9 +75,10 @@ class TexelMap {
   std::vector<Index> chart_of_face;  ///< chart number, kNone = not rasterised
   Index charts = 0;                  ///< number of charts
 
-  /// The tile that the face's texels are in.
+  /// The tile that the face's texels are in; of a face without texels, any.
   const TexelTile& tile_of(Index face) const {
-    return tiles[tile_of_face.empty() ? 0 : tile_of_face[face]];
+    const Index tile = tile_of_face.empty() ? 0 : tile_of_face[face];
+    return tiles[tile == kNone ? 0 : tile];
   }
   /// Barycentric coordinates of the claim's centre in its face, clamped to the face.
   Vec3 barycentric(Index face, const TexelClaim& claim) const;

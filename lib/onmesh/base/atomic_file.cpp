@@ -25,7 +25,7 @@ namespace {
 /// still use it when the program ends.
 struct Temporaries {
   std::mutex mutex;
-  std::set<fs::path> paths;
+  std::set<fs::path> paths, folders;
 };
 Temporaries& temporaries() {
   static auto* const all = new Temporaries;
@@ -87,24 +87,87 @@ AtomicFile::~AtomicFile() {
   ::unlink(temporary_.c_str());
 }
 
-void AtomicFile::commit() {
+/// Put the file in the target's place. The lock of the temporaries is held.
+void AtomicFile::replace() {
   struct stat before {};
   if (::stat(target_.c_str(), &before) == 0) {
     ::chmod(temporary_.c_str(), before.st_mode & 07777);
   }
-  Temporaries& all = temporaries();
-  const std::lock_guard lock(all.mutex);
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
     fail(path_, "cannot replace the file", errno);
   }
-  all.paths.erase(temporary_);
+  temporaries().paths.erase(temporary_);
   temporary_.clear();
+}
+
+/// Undo replace(), as far as that is possible.
+void AtomicFile::put_back() {
+  if (before_.empty()) {
+    ::unlink(target_.c_str());
+  } else {
+    ::rename(before_.c_str(), target_.c_str());
+  }
+}
+
+void AtomicFile::commit() {
+  const std::lock_guard lock(temporaries().mutex);
+  replace();
+}
+
+void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files) {
+  const std::lock_guard lock(temporaries().mutex);
+  // A single file needs no way back.
+  for (std::size_t i = 0; files.size() > 1 && i < files.size(); ++i) {
+    const fs::path name = files[i]->temporary_.string() + ".before";
+    if (::link(files[i]->target_.c_str(), name.c_str()) == 0) files[i]->before_ = name;
+  }
+  std::size_t done = 0;
+  const auto forget = [&] {
+    for (const auto& file : files) {
+      if (!file->before_.empty()) ::unlink(file->before_.c_str());
+    }
+  };
+  try {
+    for (; done < files.size(); ++done) files[done]->replace();
+  } catch (const FileError&) {
+    while (done-- > 0) files[done]->put_back();
+    forget();
+    throw;
+  }
+  forget();
+}
+
+AtomicFolder::AtomicFolder(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return;
+  Temporaries& all = temporaries();
+  const std::lock_guard lock(all.mutex);
+  if (::mkdir(path.c_str(), 0777) != 0) fail(path, "cannot make the folder", errno);
+  made_ = path;
+  all.folders.insert(made_);
+}
+
+AtomicFolder::~AtomicFolder() {
+  if (made_.empty()) return;
+  Temporaries& all = temporaries();
+  const std::lock_guard lock(all.mutex);
+  all.folders.erase(made_);
+  ::rmdir(made_.c_str());
+}
+
+void AtomicFolder::keep() {
+  if (made_.empty()) return;
+  Temporaries& all = temporaries();
+  const std::lock_guard lock(all.mutex);
+  all.folders.erase(made_);
+  made_.clear();
 }
 
 void remove_temporaries() {
   Temporaries& all = temporaries();
   all.mutex.lock();  // for good
   for (const fs::path& path : all.paths) ::unlink(path.c_str());
+  for (const fs::path& path : all.folders) ::rmdir(path.c_str());
 }
 
 }  // namespace onmesh

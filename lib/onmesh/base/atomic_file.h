@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <vector>
 
 namespace onmesh {
 
@@ -31,12 +33,39 @@ class AtomicFile {
   void commit();
 
  private:
+  friend void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files);
+  void replace();
+  void put_back();
+
   const std::filesystem::path path_, target_;
+  std::filesystem::path before_;  ///< a second name of what the target was; empty = none
   std::filesystem::path temporary_;
 };
 
-/// Remove the temporaries of all AtomicFiles that wait for their commit(), and let none commit from
-/// now on: for a program that ends at once.
+/// Put all files in their targets' places, or none: if one cannot be, those before it are put back.
+/// Signals that end the program wait (remove_temporaries()); only SIGKILL leaves some new and some
+/// old, each whole.
+/// \throw FileError as AtomicFile::commit()
+void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files);
+
+/// A folder that is made for the files of one run, and removed again, if it is empty, unless
+/// keep() is called. Where there is one already nothing happens.
+class AtomicFolder {
+ public:
+  /// \throw FileError if it cannot be made; that the one around it is missing is such a case
+  explicit AtomicFolder(const std::filesystem::path& path);
+  ~AtomicFolder();
+  AtomicFolder(const AtomicFolder&) = delete;
+  AtomicFolder& operator=(const AtomicFolder&) = delete;
+
+  void keep();
+
+ private:
+  std::filesystem::path made_;  ///< empty if it was there, or is kept
+};
+
+/// Remove the temporaries of all AtomicFiles that wait for their commit(), and folders that are not
+/// kept, and let none commit from now on: for a program that ends at once.
 void remove_temporaries();
 
 }  // namespace onmesh

@@ -72,6 +72,8 @@ struct FilterOptions {
   int gutter = 2;                      ///< rings of texels filled around the charts, [0, 32768]
   /// One texture, per face of the mesh as given: whether it carries it. Empty = all faces with UVs.
   std::vector<bool> faces;
+  /// Colour does not flow from faces of one material to those of another.
+  bool stop_at_materials = false;
   int threads = 0;  ///< >= 0; 0 = as many as there are processors
   /// Runs that would take more memory are refused, bytes; 0 = what there is and what is left.
   std::uint64_t max_memory = 0;

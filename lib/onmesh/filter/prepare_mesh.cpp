@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "onmesh/base/face_error.h"
@@ -118,30 +117,6 @@ std::vector<Index> tiles_left(const SurfaceTextures& textures, const CleanReport
   return left;
 }
 
-/// Give every face the UVs of its own tile. Those of different tiles have no UV index in common
-/// afterwards: a tile's border ends its charts.
-void make_uvs_local(const SurfaceTextures& textures, const std::vector<Index>& tile_of_face,
-                    TriangleMesh& mesh) {
-  const TextureTile& first = textures.tiles[0];
-  if (textures.tiles.size() == 1 && first.column == 0 && first.row == 0) return;
-  std::map<std::pair<Index, Index>, Index> numbers;  // of (tile, UV)
-  std::vector<Vec2> uvs;
-  for (Index f = 0; f < mesh.faces.size(); ++f) {
-    const Index tile = tile_of_face[f];
-    if (tile == kNone || !mesh.has_uvs(f)) {
-      mesh.face_uvs[f] = {kNone, kNone, kNone};
-      continue;
-    }
-    const Vec2 origin(textures.tiles[tile].column, textures.tiles[tile].row);
-    for (Index& uv : mesh.face_uvs[f]) {
-      const auto [at, is_new] = numbers.try_emplace({tile, uv}, Index(uvs.size()));
-      if (is_new) uvs.push_back(mesh.uvs[uv] - origin);
-      uv = at->second;
-    }
-  }
-  mesh.uvs = std::move(uvs);
-}
-
 void require_claims(const TriangleMesh& mesh, const TexelMap& map,
                     const std::vector<Index>& tile_of_face) {
   if (!map.claims.empty()) return;
@@ -196,6 +171,7 @@ PreparedMesh prepare_mesh(const TriangleMesh& mesh, const SurfaceTextures& textu
                           const FilterOptions& options) {
   PreparedMesh out;
   out.mesh = weld(mesh);
+  if (options.stop_at_materials) out.mesh = separate_materials(out.mesh);
   const double scale = scale_into_range(out.mesh);
   if (scale != 1) {
     for (Vec3& p : out.mesh.positions) p *= scale;
@@ -213,12 +189,10 @@ PreparedMesh prepare_mesh(const TriangleMesh& mesh, const SurfaceTextures& textu
 
   const std::vector<Index> tile_of_face = tiles_left(textures, out.cleaning);
   require_memory_for_texels(out.mesh, textures, tile_of_face, options);
-  make_uvs_local(textures, tile_of_face, out.mesh);
-  std::vector<TexelTile> tiles;
-  for (const TextureTile& tile : textures.tiles)
-    tiles.push_back({tile.image->width, tile.image->height, tile.wrap});
-  out.map = with_face_numbers(
-      out.cleaning.kept, [&] { return make_texel_map(out.mesh, std::move(tiles), tile_of_face); });
+  make_uvs_local(textures.tiles, tile_of_face, out.mesh);
+  out.map = with_face_numbers(out.cleaning.kept, [&] {
+    return make_texel_map(out.mesh, texel_tiles(textures.tiles), tile_of_face);
+  });
   require_claims(out.mesh, out.map, tile_of_face);
   warn_of_thin_faces(out.mesh, tile_of_face, out.warnings);
   fit_unit_to_texels(out);

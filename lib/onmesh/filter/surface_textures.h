@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "onmesh/atlas/texel_map.h"
 #include "onmesh/filter/options.h"
 #include "onmesh/image/image.h"
 #include "onmesh/image/lookup.h"
 #include "onmesh/image/texel_values.h"
+#include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {
 
@@ -35,6 +37,16 @@ struct SurfaceTextures {
     return values;
   }
 };
+
+/// Give every face the UVs of its own tile, which is [0,1] then; faces without a tile lose theirs.
+/// Those of different tiles have no UV index in common afterwards: a tile's border ends its charts.
+/// A single tile at the origin changes nothing.
+/// \param tile_of_face of the faces of `mesh`
+void make_uvs_local(const std::vector<TextureTile>& tiles, const std::vector<Index>& tile_of_face,
+                    TriangleMesh& mesh);
+
+/// The tiles as texel maps have them.
+std::vector<TexelTile> texel_tiles(const std::vector<TextureTile>& tiles);
 
 /// The textures of a surface that has one, as `options.wrap` and `options.faces` say.
 /// \pre image outlives them

@@ -39,6 +39,18 @@ void write_image(const std::filesystem::path& path, const Image& image,
                  const ImageWriteOptions& options = {},
                  std::vector<std::string>* warnings = nullptr);
 
+/// An image and where it goes.
+struct ImageFile {
+  std::filesystem::path path;
+  const Image* image = nullptr;
+};
+
+/// Write several images, each as write_image() does, or none: all of them are complete and read
+/// back before the first takes its place (commit_all()).
+/// \throw as write_image()
+void write_images(const std::vector<ImageFile>& files, const ImageWriteOptions& options = {},
+                  std::vector<std::string>* warnings = nullptr);
+
 /// Throw now if write_image() could not write `image` to `path` later.
 ///
 /// \throw FileError for an unknown extension, a missing or read-only folder, or if it is a folder

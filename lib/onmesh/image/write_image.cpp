@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <memory>
 
 #include "onmesh/base/atomic_file.h"
 #include "onmesh/base/error.h"
@@ -225,26 +226,35 @@ void check_writable_image(const fs::path& path, const Image& image) {
     throw FileError(path.string() + ": cannot write in the folder: " + std::strerror(errno));
 }
 
+void write_images(const std::vector<ImageFile>& files, const ImageWriteOptions& options,
+                  std::vector<std::string>* warnings) {
+  for (const ImageFile& file : files) check_writable_image(file.path, *file.image);
+  std::vector<std::unique_ptr<AtomicFile>> written;
+  std::vector<std::string> found;
+  for (const auto& [path, image] : files) {
+    const ImageFormat& format = image_format(path);
+    const auto types = choose_types(format, *image, options);
+    written.push_back(std::make_unique<AtomicFile>(path));
+    try {
+      encode(written.back()->temporary(), path, format, *image, types);
+      verify(written.back()->temporary(), path, format, *image, types);
+    } catch (const std::bad_alloc&) {
+      throw FileError(path.string() + ": not enough memory to write the image");
+    }
+    const auto warn = [&](const std::string& what) {
+      found.push_back(path.string() + ": " + what);
+    };
+    warn_of_types(*image, options, types, warn);
+    warn_of_values(*image, types, warn);
+    warn_of_meaning(format, *image, warn);
+  }
+  commit_all(written);
+  if (warnings != nullptr) warnings->insert(warnings->end(), found.begin(), found.end());
+}
+
 void write_image(const fs::path& path, const Image& image, const ImageWriteOptions& options,
                  std::vector<std::string>* warnings) {
-  check_writable_image(path, image);
-  const ImageFormat& format = image_format(path);
-  const auto types = choose_types(format, image, options);
-  AtomicFile file(path);
-  try {
-    encode(file.temporary(), path, format, image, types);
-    verify(file.temporary(), path, format, image, types);
-  } catch (const std::bad_alloc&) {
-    throw FileError(path.string() + ": not enough memory to write the image");
-  }
-  file.commit();
-  if (warnings == nullptr) return;
-  const auto warn = [&](const std::string& what) {
-    warnings->push_back(path.string() + ": " + what);
-  };
-  warn_of_types(image, options, types, warn);
-  warn_of_values(image, types, warn);
-  warn_of_meaning(format, image, warn);
+  write_images({{path, &image}}, options, warnings);
 }
 
 }  // namespace onmesh

@@ -24,11 +24,12 @@ struct RowDifference {
   Index bad = kNone;    ///< the first texel that is not finite in one image only
 };
 
-RowDifference difference_in_row(const Image& a, const Image& b, const TexelMap* map, Index y) {
+RowDifference difference_in_row(const Image& a, const Image& b, const TexelMap* map, Index tile,
+                                Index y) {
   RowDifference row;
   const Index begin = y * Index(a.width);
   for (Index i = begin; i < begin + Index(a.width); ++i) {
-    if (map != nullptr && map->coverage[i] != Coverage::covered) continue;
+    if (map != nullptr && map->coverage[map->tiles[tile].first + i] != Coverage::covered) continue;
     ++row.texels;
     if (row.worst == kNone) row.worst = i;
     for (int c = 0; c < a.channels; ++c) {
@@ -49,16 +50,20 @@ RowDifference difference_in_row(const Image& a, const Image& b, const TexelMap* 
   return row;
 }
 
+double decibels(double rms) {
+  return rms > 0 ? -20 * std::log10(rms) : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
-ImageDifference difference(const Image& a, const Image& b, const TexelMap* map) {
+ImageDifference difference(const Image& a, const Image& b, const TexelMap* map, Index tile) {
   if (a.width != b.width || a.height != b.height || a.channels != b.channels)
     throw InputError("the images differ in size: " + size_of(a) + " and " + size_of(b));
-  if (map != nullptr && (map->tiles[0].width != a.width || map->tiles[0].height != a.height))
+  if (map != nullptr && (map->tiles[tile].width != a.width || map->tiles[tile].height != a.height))
     throw InputError("the texel map is not of the images' size");
   std::vector<RowDifference> rows(std::size_t(a.height));
   parallel_over(rows.size(),
-                [&](std::size_t y) { rows[y] = difference_in_row(a, b, map, Index(y)); });
+                [&](std::size_t y) { rows[y] = difference_in_row(a, b, map, tile, Index(y)); });
   ImageDifference result;
   double squares = 0;
   bool first = true;
@@ -77,8 +82,24 @@ ImageDifference difference(const Image& a, const Image& b, const TexelMap* map) 
   }
   const double values = double(result.texels) * a.channels;
   result.rms = values > 0 ? std::sqrt(squares / values) : 0;
-  result.psnr =
-      result.rms > 0 ? -20 * std::log10(result.rms) : std::numeric_limits<double>::infinity();
+  result.psnr = decibels(result.rms);
+  return result;
+}
+
+ImageDifference together(const std::vector<ImageDifference>& parts, std::size_t* which) {
+  ImageDifference result;
+  double squares = 0;
+  std::size_t worst = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    squares += parts[i].rms * parts[i].rms * parts[i].texels;
+    result.texels += parts[i].texels;
+    if (parts[i].max > parts[worst].max) worst = i;
+  }
+  result.max = parts[worst].max;
+  result.worst_texel = parts[worst].worst_texel;
+  if (result.texels > 0) result.rms = std::sqrt(squares / result.texels);
+  result.psnr = decibels(result.rms);
+  if (which != nullptr) *which = worst;
   return result;
 }
 

@@ -1,6 +1,8 @@
 // How two textures differ.
 #pragma once
 
+#include <vector>
+
 #include "onmesh/atlas/texel_map.h"
 #include "onmesh/image/image.h"
 
@@ -18,7 +20,14 @@ struct ImageDifference {
 /// Compare two images over all channels. Two NaN, or two equal infinities, are equal. The same
 /// result for any number of threads.
 /// \param map if given, only its covered texels are compared
+/// \param tile of the map that the images are
 /// \throw InputError if sizes or channel counts differ, or a value is not finite in one image only
-ImageDifference difference(const Image& a, const Image& b, const TexelMap* map = nullptr);
+ImageDifference difference(const Image& a, const Image& b, const TexelMap* map = nullptr,
+                           Index tile = 0);
+
+/// That of several pairs of images with the same channels, all values counted alike. The worst
+/// texel is that of the pair with the largest maximum, the first if several have it. \param which
+/// receives the number of that pair \pre there are some
+ImageDifference together(const std::vector<ImageDifference>& parts, std::size_t* which = nullptr);
 
 }  // namespace onmesh

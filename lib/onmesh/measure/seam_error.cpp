@@ -33,24 +33,32 @@ std::vector<Seam> find_seams(const TriangleMesh& mesh, const TexelMap& map) {
   return seams;
 }
 
+/// A side's image, and how UVs beyond it are read.
+struct Side {
+  const Image& image;
+  Wrap wrap;
+
+  double pixels(const Vec2& from, const Vec2& to) const {
+    return (to - from).cwiseProduct(Vec2(image.width, image.height)).norm();
+  }
+};
+
 /// Fill in the seam's length and error.
-void measure(const TriangleMesh& mesh, const Image& image, Wrap wrap, Seam& seam) {
+void measure(const TriangleMesh& mesh, const Side& one_side, const Side& other_side, Seam& seam) {
   const Index f = seam.face / 3, g = seam.other / 3;
   const std::size_t a = seam.face % 3, b = (a + 1) % 3, c = seam.other % 3, d = (c + 1) % 3;
   const bool opposed = mesh.faces[f][a] == mesh.faces[g][d];
   const auto u = mesh.corner_uvs(f), v = mesh.corner_uvs(g);
   const Vec2 &u0 = u[a], &u1 = u[b], &v0 = v[opposed ? d : c], &v1 = v[opposed ? c : d];
   seam.length = (mesh.positions[mesh.faces[f][b]] - mesh.positions[mesh.faces[f][a]]).norm();
-  const Vec2 size(image.width, image.height);
-  const double pixels =
-      std::max((u1 - u0).cwiseProduct(size).norm(), (v1 - v0).cwiseProduct(size).norm());
+  const double pixels = std::max(one_side.pixels(u0, u1), other_side.pixels(v0, v1));
   const int points = int(std::ceil(std::min(2 * pixels, 1e6))) + 1;
-  const auto channels = std::size_t(image.channels);
+  const auto channels = std::size_t(one_side.image.channels);
   std::vector<float> one(channels), two(channels);
   for (int p = 0; p < points; ++p) {
     const double t = points > 1 ? p / (points - 1.0) : 0.5;
-    bilinear(image, wrap, (1 - t) * u0 + t * u1, one.data());
-    bilinear(image, wrap, (1 - t) * v0 + t * v1, two.data());
+    bilinear(one_side.image, one_side.wrap, (1 - t) * u0 + t * u1, one.data());
+    bilinear(other_side.image, other_side.wrap, (1 - t) * v0 + t * v1, two.data());
     for (std::size_t ch = 0; ch < channels; ++ch) {
       if (one[ch] == two[ch] || !std::isfinite(one[ch]) || !std::isfinite(two[ch])) continue;
       const double e = std::abs(double(one[ch]) - double(two[ch]));
@@ -62,12 +70,23 @@ void measure(const TriangleMesh& mesh, const Image& image, Wrap wrap, Seam& seam
 
 }  // namespace
 
-SeamError seam_error(const TriangleMesh& mesh, const TexelMap& map, const Image& image) {
-  const TexelTile& tile = map.tiles[0];
-  if (tile.width != image.width || tile.height != image.height)
-    throw InputError("the texel map is not of the image's size");
+SeamError seam_error(const TriangleMesh& mesh, const TexelMap& map,
+                     const std::vector<const Image*>& images, Index tile) {
+  for (std::size_t i = 0; i < map.tiles.size(); ++i) {
+    if (map.tiles[i].width != images[i]->width || map.tiles[i].height != images[i]->height)
+      throw InputError("the texel map is not of the image's size");
+  }
+  const auto number = [&](Index face) { return Index(&map.tile_of(face) - map.tiles.data()); };
   std::vector<Seam> seams = find_seams(mesh, map);
-  parallel_over(seams.size(), [&](std::size_t i) { measure(mesh, image, tile.wrap, seams[i]); });
+  if (tile != kNone) {
+    std::erase_if(seams, [&](const Seam& seam) {
+      return number(seam.face / 3) != tile && number(seam.other / 3) != tile;
+    });
+  }
+  parallel_over(seams.size(), [&](std::size_t i) {
+    const Index a = number(seams[i].face / 3), b = number(seams[i].other / 3);
+    measure(mesh, {*images[a], map.tiles[a].wrap}, {*images[b], map.tiles[b].wrap}, seams[i]);
+  });
   SeamError result;
   double squares = 0;
   for (const Seam& seam : seams) {
@@ -78,6 +97,10 @@ SeamError seam_error(const TriangleMesh& mesh, const TexelMap& map, const Image&
   result.edges = Index(seams.size());
   if (result.length > 0) result.rms = std::sqrt(squares / result.length);
   return result;
+}
+
+SeamError seam_error(const TriangleMesh& mesh, const TexelMap& map, const Image& image) {
+  return seam_error(mesh, map, std::vector<const Image*>{&image});
 }
 
 }  // namespace onmesh

@@ -1,6 +1,8 @@
 // How visible a texture's seams are.
 #pragma once
 
+#include <vector>
+
 #include "onmesh/atlas/texel_map.h"
 #include "onmesh/image/image.h"
 
@@ -19,8 +21,15 @@ struct SeamError {
 ///
 /// RMS is over the seams' length and all channels. Where more than two faces meet, each is compared
 /// with the one that goes on most straight.
+/// Seams between tiles count like those within one.
+/// \param images one per tile of the map, with the same channels
+/// \param tile only seams with a side in this one; kNone = all
 /// \pre mesh and map belong together
-/// \throw InputError if the map is not of the image's size
+/// \throw InputError if the map is not of the images' sizes
+SeamError seam_error(const TriangleMesh& mesh, const TexelMap& map,
+                     const std::vector<const Image*>& images, Index tile = kNone);
+
+/// The same for a map of one tile.
 SeamError seam_error(const TriangleMesh& mesh, const TexelMap& map, const Image& image);
 
 }  // namespace onmesh

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "onmesh/base/plane.h"
 #include "onmesh/base/triangle.h"
@@ -161,6 +163,24 @@ TriangleMesh loosen(const TriangleMesh& mesh) {
     }
     result.faces.push_back(corners);
     result.face_uvs.push_back(uvs);
+  }
+  return result;
+}
+
+TriangleMesh separate_materials(const TriangleMesh& mesh) {
+  TriangleMesh result = mesh;
+  std::map<std::pair<Index, Index>, Index> numbers;  // of (vertex, material)
+  std::vector<bool> is_taken(mesh.positions.size(), false);
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    for (Index& v : result.faces[f]) {
+      const auto [at, is_new] = numbers.try_emplace({v, mesh.face_materials[f]}, v);
+      if (is_new && is_taken[v]) {
+        at->second = Index(result.positions.size());
+        result.positions.push_back(Vec3(mesh.positions[v]));
+      }
+      is_taken[v] = true;
+      v = at->second;
+    }
   }
   return result;
 }

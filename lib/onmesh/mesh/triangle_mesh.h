@@ -71,6 +71,10 @@ TriangleMesh weld(const TriangleMesh& mesh);
 /// The opposite: every face gets positions and UVs of its own (a triangle soup).
 TriangleMesh loosen(const TriangleMesh& mesh);
 
+/// Vertices that faces of several materials use are split: each material gets one of its own, so
+/// that the surface ends where materials do.
+TriangleMesh separate_materials(const TriangleMesh& mesh);
+
 /// The faces for which keep[face] is set, in their order, with unused positions and UVs dropped.
 /// \pre keep has an entry per face
 TriangleMesh extract_faces(const TriangleMesh& mesh, const std::vector<bool>& keep);

@@ -45,8 +45,8 @@ void check(const TriangleMesh& mesh, const RenderColour& colour, const RenderOpt
   if (colour.scalar != nullptr && colour.scalar->size() != mesh.positions.size())
     throw InputError("view: " + std::to_string(colour.scalar->size()) + " scalars for " +
                      std::to_string(mesh.positions.size()) + " vertices");
-  if (!colour.material_textures.empty() && colour.material_textures.size() != mesh.materials.size())
-    throw InputError("view: the number of textures is not that of materials");
+  if (!colour.face_textures.empty() && colour.face_textures.size() != mesh.faces.size())
+    throw InputError("view: the number of textures is not that of faces");
 }
 
 // Normals per face corner: smooth over gentle edges, apart at creases.
@@ -195,8 +195,7 @@ class Scene {
     const Index material = mesh_.face_materials.empty() ? kNone : mesh_.face_materials[f];
     if (colour_.by_material) return material == kNone ? kGrey : flat_colour(material);
     const Image* texture = colour_.texture;
-    if (texture == nullptr && material < colour_.material_textures.size())
-      texture = colour_.material_textures[material];
+    if (texture == nullptr && !colour_.face_textures.empty()) texture = colour_.face_textures[f];
     if (texture == nullptr || !mesh_.has_uvs(f)) return kGrey;
     const Vec2 at = interpolate(mesh_.corner_uvs(f), b);
     if (!at.allFinite()) return kGrey;

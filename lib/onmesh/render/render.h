@@ -25,14 +25,14 @@ struct RenderOptions {
 };
 
 /// What colours the surface. The first that is set counts: a scalar per vertex with isolines, flat
-/// colours per material, one texture for all faces, a texture per material; grey if none is.
+/// colours per material, one texture for all faces, a texture per face; grey if none is.
 struct RenderColour {
   const std::vector<double>* scalar =
-      nullptr;                     ///< per vertex; faces with a value not finite are grey
-  double isoline_step = 0;         ///< 0 = a twentieth of the range, negative = none
-  bool by_material = false;        ///< one flat colour per material
-  const Image* texture = nullptr;  ///< for all faces with UVs
-  std::vector<const Image*> material_textures;  ///< per material of the mesh; null = grey
+      nullptr;                              ///< per vertex; faces with a value not finite are grey
+  double isoline_step = 0;                  ///< 0 = a twentieth of the range, negative = none
+  bool by_material = false;                 ///< one flat colour per material
+  const Image* texture = nullptr;           ///< for all faces with UVs
+  std::vector<const Image*> face_textures;  ///< per face, with UVs of its own tile; null = grey
 };
 
 /// Perspective z-buffer rendering with bilinear look-ups and supersampling.

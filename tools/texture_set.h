@@ -1,0 +1,87 @@
+// Which textures are meant, which faces of the mesh carry each, and where results go.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "onmesh/base/error.h"
+#include "onmesh/filter/surface_textures.h"
+#include "onmesh/mesh/triangle_mesh.h"
+
+namespace onmesh::tools {
+
+/// One file of the set.
+struct SetTexture {
+  std::filesystem::path path;
+  std::string material;    ///< the first one that names it; empty if none does
+  int udim = 0;            ///< UDIM tile, 1001 to 9999; 0 = not a tile of several
+  bool is_written = true;  ///< else it is context: read, filtered, not written
+
+  int column() const { return udim == 0 ? 0 : (udim - 1001) % 10; }
+  int row() const { return udim == 0 ? 0 : (udim - 1001) / 10; }
+};
+
+/// Textures that are filtered together.
+struct TextureSet {
+  std::vector<SetTexture> textures;
+  std::vector<Index> tile_of_face;  ///< per face, into textures; kNone = carries no texels
+  std::string reason;               ///< for the report: how textures and faces were found
+  std::vector<std::string> warnings;
+};
+
+/// What the command line says about textures.
+struct TextureRequest {
+  std::vector<std::string> files;       ///< -t; empty = those that the mesh's materials name
+  std::optional<std::string> material;  ///< --material
+  std::vector<int> only;                ///< --only: UDIM tiles to write; empty = all
+};
+
+/// Find textures and faces.
+///
+/// Without files all textures that materials name, and `material` chooses those to be written. One
+/// file is for the faces whose material names it (or a file of its name), else those of the only
+/// textured material, else all; `material` decides where that is not enough: a material's name, or
+/// "all" for all faces. Several files are each for the faces whose material names them. `<UDIM>`,
+/// `<UVTILE>` and `{material}` in a name stand for what is there; x.1001.png with UVs beyond the
+/// tile is taken for one of several UDIM tiles.
+/// \throw UsageError that says what to give; FileError for a pattern that no file matches, or a
+///   missing file, naming the material
+TextureSet choose_textures(const TriangleMesh& mesh, const TextureRequest& request);
+
+/// 0 for the faces of a material, or for all (none or "all"); kNone for the others.
+/// \throw UsageError if no face has that material
+std::vector<Index> faces_of_material(const TriangleMesh& mesh,
+                                     const std::optional<std::string>& material);
+
+/// Forget the textures that are not written, and that faces carry them.
+void keep_written(TextureSet& set);
+
+/// Calls work(), which chooses textures; if there is none to choose, the error says what was odd
+/// about the mesh: a material file may be missing.
+template <class Work>
+auto explained_by(const std::vector<std::string>& warnings, const Work& work) {
+  try {
+    return work();
+  } catch (const UsageError& error) {
+    std::string message = error.what();
+    for (const std::string& warning : warnings) message += "; " + warning;
+    throw UsageError(message);
+  }
+}
+
+/// Where the results of a set go.
+struct OutputNames {
+  std::vector<std::filesystem::path> paths;  ///< per texture; empty = it is not written
+  std::filesystem::path folder;              ///< to be made if it is not there; empty = none
+};
+
+/// \param output a folder (which there is, or with a slash at the end), a pattern with `<UDIM>`,
+///   `<UVTILE>`, `{stem}`, `{material}`, `{ext}`, or a plain name
+/// \param extension of files in a folder, ".exr"; empty = as the texture's
+/// \throw UsageError if two results would get one name, also if it differs in case only
+OutputNames name_outputs(const TextureSet& set, const std::string& output,
+                         const std::string& extension = {});
+
+}  // namespace onmesh::tools
