@@ -7,11 +7,24 @@
 #include "format.h"
 #include "interruption.h"
 #include "messages.h"
+#include "onmesh/atlas/uv_overlap.h"
 #include "onmesh/base/face_error.h"
 #include "shared_options.h"
 
 namespace onmesh::tools {
 namespace {
+
+/// Tiles beside each other use their texels once, though their UVs agree but for whole numbers.
+void measure_overlap(const Atlas& atlas, MeshReport& report) {
+  TriangleMesh by_tile = atlas.mesh;
+  by_tile.materials.clear();
+  for (const SetTexture& texture : atlas.set.textures)
+    by_tile.materials.push_back({texture.path.string(), texture.path.string()});
+  by_tile.face_materials = atlas.set.tile_of_face;
+  const UvOverlap overlap = estimate_overlap(by_tile);
+  report.overlap_share = overlap.share;
+  report.max_overlap = overlap.deepest;
+}
 
 /// The facts of every tile of an atlas.
 std::vector<TextureFacts> measure(const InputMesh& input, const Atlas& atlas, Findings& findings) {
@@ -43,7 +56,10 @@ std::vector<TextureFacts> measure(const InputMesh& input, const Atlas& atlas, Fi
     }
     all.push_back(std::move(facts));
   }
-  if (images.size() > 1) findings.seams = seam_error(atlas.mesh, map, images);
+  if (images.size() > 1) {
+    findings.seams = seam_error(atlas.mesh, map, images);
+    measure_overlap(atlas, findings.mesh);
+  }
   return all;
 }
 
