@@ -126,6 +126,10 @@ NodeSurface make_nodes(const RunContext& run, Image& image) {
   }
   if (setup.lengths.bridge > 0) {
     run.report.bridges = add_bridges(setup.mesh, setup.lengths.bridge, surface);
+    if (run.report.bridges == 0) {
+      run.report.warnings.emplace_back(
+          "nothing was bridged: no boundaries or parts of the mesh are so close to each other");
+    }
   }
   run.report.nodes = surface.nodes.nodes.size();
   run.report.node_faces = surface.nodes.faces.size();
