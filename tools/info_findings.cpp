@@ -1,13 +1,16 @@
 #include "info_findings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
+#include "flags.h"
 #include "format.h"
 #include "interruption.h"
 #include "messages.h"
 #include "onmesh/image/image_io.h"
+#include "onmesh/mesh/coarse_coordinates.h"
 
 namespace onmesh::tools {
 namespace {
@@ -50,6 +53,9 @@ void measure(const InputMesh& input, const Atlas& atlas, TextureFacts& facts) {
   facts.overlapped = map.overlapped().size();
   facts.crowded = map.crowded().size();
   if (facts.covered > 0) facts.texel_size = map.median_texel_size();
+  std::vector<double> texel_size;
+  for (const double area : map.texel_area) texel_size.push_back(std::sqrt(area));
+  facts.near = find_near_boundaries(mesh, texel_size);
   if (facts.channels > 0) facts.seams = seam_error(mesh, map, atlas.image);
 }
 
@@ -127,6 +133,12 @@ std::vector<std::string> find_problems(const Findings& findings) {
 
 std::vector<std::string> find_advice(const InputMesh& input, const Findings& findings) {
   std::vector<std::string> lines = advice(findings.mesh);
+  if (!findings.coarse.empty()) lines.push_back(findings.coarse);
+  if (const Index refused = input.joining.refused_edges; refused > 0) {
+    lines.push_back(std::to_string(refused) +
+                    " boundary edges lie within the tolerance of several others, or of chains of "
+                    "them: they are not joined");
+  }
   if (const Index fins = input.cleaning.fins; fins > 0) {
     lines.push_back(
         std::to_string(fins) +
@@ -139,6 +151,7 @@ std::vector<std::string> find_advice(const InputMesh& input, const Findings& fin
   }
   for (const TextureFacts& facts : findings.textures) {
     if (!facts.trouble.empty()) lines.push_back("texture " + facts.trouble);
+    if (facts.near.edges > 0) lines.push_back(in_flags(facts.near.text()));
     if (facts.crowded > 0) {
       lines.push_back(format_count(facts.crowded) + " texels " +
                       (facts.path.empty() ? "" : "of " + facts.path + " ") +
@@ -153,7 +166,8 @@ std::vector<std::string> find_advice(const InputMesh& input, const Findings& fin
 
 Findings examine(const InputMesh& input, const Arguments& arguments) {
   Findings findings;
-  findings.mesh = report_mesh(input.welded);
+  findings.mesh = report_mesh(input.joined);
+  findings.coarse = find_coarse_coordinates(input.as_read, input.welded).problem;
   check_interrupted();
   findings.textures = examine_textures(input, arguments);
   check_interrupted();

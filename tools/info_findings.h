@@ -8,6 +8,7 @@
 
 #include "onmesh/measure/mesh_report.h"
 #include "onmesh/measure/seam_error.h"
+#include "onmesh/mesh/near_boundaries.h"
 #include "shared_options.h"
 
 namespace onmesh::tools {
@@ -19,12 +20,14 @@ struct TextureFacts {
   int width = 0, height = 0, channels = 0;
   std::uint64_t covered = 0, touched = 0, overlapped = 0, crowded = 0;  ///< texels
   double texel_size = 0;                                                ///< median, mesh units
+  NearBoundaries near;  ///< boundaries within a texel of others
   std::optional<SeamError> seams;
 };
 
 /// The findings on one mesh file.
 struct Findings {
   MeshReport mesh;
+  std::string coarse;  ///< what too coarse coordinates lost; empty if nothing
   std::vector<TextureFacts> textures;
   std::vector<std::string> advice;
   std::vector<std::string> problems;  ///< short fixed names of what --strict minds

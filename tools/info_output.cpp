@@ -21,6 +21,7 @@ nlohmann::json texture_json(const TextureFacts& t) {
           {"touched", t.touched},
           {"overlapped", t.overlapped},
           {"crowded", t.crowded},
+          {"near_boundary_edges", t.near.edges},
           {"texel_size", t.texel_size},
           {"seams", t.seams ? to_json(*t.seams) : nlohmann::json()}};
 }
@@ -44,6 +45,7 @@ nlohmann::json mesh_json(const MeshReport& r) {
           {"faces_without_uvs", r.faces_without_uvs},
           {"degenerate_uvs", r.degenerate_uvs},
           {"mirrored_faces", r.mirrored_faces},
+          {"faces_running_back", r.running_back},
           {"overlap_share", r.overlap_share},
           {"max_overlap", r.max_overlap},
           {"uv_min", {r.uv_min.x(), r.uv_min.y()}},
@@ -87,6 +89,10 @@ void print_surface(const InputMesh& input, const MeshReport& r) {
   row("surface area", format_number(r.surface_area));
   row("diagonal", format_number(r.diagonal));
   row("mean edge", format_number(input.welded.mean_edge_length()));
+  if (!input.joining.nothing_done()) {
+    row("joined", format_count(input.joining.joined_edges) + " edges apart by rounding, " +
+                      format_count(input.joining.t_junctions) + " T-junctions");
+  }
 }
 
 void print_cleaning(const CleanReport& c) {
@@ -137,6 +143,9 @@ void print_texture(const TextureFacts& t) {
   row("touched texels", format_count(t.touched));
   row("crowded texels", format_count(t.crowded));
   row("overlapped texels", format_count(t.overlapped));
+  if (t.near.edges > 0) {
+    row("near boundaries", format_count(t.near.edges) + " edges within a texel of others");
+  }
   row("texel size", format_number(t.texel_size) + " mesh units (median)");
   if (!t.seams) return;
   row("seams",
@@ -152,6 +161,9 @@ void print_json(const InputMesh& input, const Findings& findings) {
   json["vertices_in_file"] = input.as_read.positions.size();
   json.update(mesh_json(findings.mesh));
   json["mean_edge"] = input.welded.mean_edge_length();
+  json["joined_edges"] = input.joining.joined_edges;
+  json["t_junctions"] = input.joining.t_junctions;
+  json["refused_edges"] = input.joining.refused_edges;
   json["cleaning"] = cleaning_json(input.cleaning);
   json["materials"] = nlohmann::json::array();
   for (const Material& m : input.welded.materials) {

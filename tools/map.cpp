@@ -8,6 +8,7 @@
 #include "interruption.h"
 #include "messages.h"
 #include "onmesh/base/text.h"
+#include "onmesh/base/triangle.h"
 #include "onmesh/image/image_io.h"
 #include "report.h"
 #include "shared_options.h"
@@ -36,6 +37,7 @@ Command map_command() {
   add("mesh", text());
   add("output,o", text(), "the EXR to write");
   add_atlas_options(command.options);
+  add_weld_option(command.options);
   add("json", flag(), "statistics as JSON on stdout");
   add("quiet", flag(), "no summary");
   command.positional.add("mesh", 1);
@@ -49,7 +51,20 @@ enum Channel { kX, kY, kZ, kArea, kB0, kB1, kB2, kChart, kClaims, kCoverage, kFa
 const std::vector<std::string> kNames = {"x",  "y",     "z",      "area",     "b0",  "b1",
                                          "b2", "chart", "claims", "coverage", "face"};
 
-Image draw(const TriangleMesh& mesh, const TexelMap& map, const std::vector<Index>& file_face) {
+/// Barycentric coordinates in the file's face, of which this one may be a part.
+Vec3 in_file_face(const InputMesh& input, Index face, const Vec3& barycentric) {
+  const Index whole = input.cleaning.kept[face];
+  Vec3 sum = Vec3::Zero();
+  const auto part_uvs = input.cleaned.corner_uvs(face), uvs = input.as_read.corner_uvs(whole);
+  if (part_uvs == uvs) return barycentric;
+  for (std::size_t k = 0; k < 3; ++k) {
+    sum += barycentric[Eigen::Index(k)] * barycentric_in(uvs, part_uvs[k]);
+  }
+  return sum.allFinite() ? sum : barycentric;
+}
+
+Image draw(const InputMesh& input, const TexelMap& map) {
+  const TriangleMesh& mesh = input.cleaned;
   Image image = make_image(map.width, map.height, kChannels);
   image.channel_names = kNames;
   for (Index i = 0; i < map.coverage.size(); ++i) {
@@ -63,11 +78,12 @@ Image draw(const TriangleMesh& mesh, const TexelMap& map, const std::vector<Inde
       if (texel[kClaims]++ > 0) continue;
       const Vec3 b = map.barycentric(f, map.claims[c]);
       const Vec3 p = mesh.position({f, b});
-      texel[kFace] = float(file_face[f]);
+      const Vec3 whole = in_file_face(input, f, b);
+      texel[kFace] = float(input.cleaning.kept[f]);
       texel[kChart] = float(map.chart_of_face[f]);
       texel[kArea] = float(map.texel_area[f]);
       for (int k = 0; k < 3; ++k) {
-        texel[kB0 + k] = float(b[k]);
+        texel[kB0 + k] = float(whole[k]);
         texel[kX + k] = float(p[k]);
       }
     }
@@ -78,8 +94,8 @@ Image draw(const TriangleMesh& mesh, const TexelMap& map, const std::vector<Inde
 // Cleaning turns faces over; barycentric coordinates are those of the file's corners.
 void restore_corner_order(const InputMesh& input, TriangleMesh& mesh) {
   for (Index f = 0; f < mesh.faces.size(); ++f) {
-    const auto& before = input.welded.faces[input.cleaning.kept[f]];
-    if (input.welded.positions[before[1]] == mesh.positions[mesh.faces[f][1]]) continue;
+    const auto& before = input.joined.faces[input.joined_faces[f]];
+    if (input.joined.positions[before[1]] == mesh.positions[mesh.faces[f][1]]) continue;
     std::swap(mesh.faces[f][1], mesh.faces[f][2]);
     std::swap(mesh.face_uvs[f][1], mesh.face_uvs[f][2]);
   }
@@ -126,7 +142,7 @@ int run_map(const Arguments& arguments) {
   check_writable_image(output, make_image(1, 1, kChannels));
   wrap_of(arguments);
 
-  InputMesh input = read_input_mesh(path);
+  InputMesh input = read_input_mesh(path, weld_of(arguments));
   warn(input.warnings);
   check_interrupted();
   Atlas atlas = read_atlas(arguments, input.cleaned);
@@ -137,7 +153,7 @@ int run_map(const Arguments& arguments) {
   if (input.welded.faces.size() > (1U << 24))
     warn(output + ": face numbers beyond 16,777,216 are rounded, the channels are 32-bit float");
   check_interrupted();
-  write_image(output, draw(input.cleaned, map, input.cleaning.kept));
+  write_image(output, draw(input, map));
 
   const Statistics found = statistics(map);
   if (arguments.flag("json")) {

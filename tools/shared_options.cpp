@@ -34,6 +34,15 @@ std::optional<Length> bridge_of(const Arguments& arguments) {
   return arguments.text("bridge") == "0" ? std::nullopt : std::optional(arguments.length("bridge"));
 }
 
+std::optional<Length> weld_of(const Arguments& arguments) {
+  if (!arguments.has("weld")) return std::nullopt;
+  if (arguments.text("weld") == "0") return Length{0, Length::Unit::mesh};
+  const Length weld = arguments.length("weld");
+  if (weld.unit == Length::Unit::texel)
+    throw UsageError("--weld: is in mesh units or percent, not in texels");
+  return weld;
+}
+
 DistanceMethod distance_of(const Arguments& arguments) {
   try {
     return distance_method(arguments.text("distance"));
@@ -49,6 +58,13 @@ void add_atlas_options(boost::program_options::options_description& options) {
   add("resolution", text(), "size of the atlas instead of a texture, such as 1024x1024");
   add("material", text(), "only the faces of this material; all = every face with UVs");
   add("wrap", text("repeat"), "what UVs outside [0,1] mean: repeat or clamp");
+}
+
+void add_weld_option(boost::program_options::options_description& options) {
+  options.add_options()(
+      "weld", text(),
+      "length in mesh units or percent: boundaries that are no farther apart are joined (default: "
+      "by the precision of the file's coordinates; 0: only what is equal)");
 }
 
 bool has_atlas_option(const Arguments& arguments) {

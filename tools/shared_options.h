@@ -17,11 +17,16 @@ namespace onmesh::tools {
 Wrap wrap_of(const Arguments& arguments);
 /// The length that --bridge gives, nothing for none (0, the default).
 std::optional<Length> bridge_of(const Arguments& arguments);
+/// The length that --weld gives, nothing for its default.
+/// \throw UsageError if it is in texels
+std::optional<Length> weld_of(const Arguments& arguments);
 /// The value of --distance.
 DistanceMethod distance_of(const Arguments& arguments);
 
 /// Adds --texture, --resolution, --material and --wrap.
 void add_atlas_options(boost::program_options::options_description& options);
+/// Adds --weld.
+void add_weld_option(boost::program_options::options_description& options);
 bool has_atlas_option(const Arguments& arguments);
 
 /// The size of the texture whose atlas is meant, and the faces that carry it.

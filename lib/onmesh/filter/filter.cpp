@@ -59,6 +59,9 @@ void note_plan(const FilterPlan& plan, FilterReport& report) {
   report.largest_sample_spacing = plan.largest_sample_spacing;
   report.texel_size = plan.texel_size;
   report.overlapped = plan.overlapped;
+  report.joined_edges = plan.joined_edges;
+  report.t_junctions = plan.t_junctions;
+  report.near_edges = plan.near_edges;
   report.warnings = plan.warnings;
 }
 
