@@ -31,7 +31,7 @@ struct Place {
 
 class GutterFill {
  public:
-  GutterFill(const TriangleMesh& mesh, const TexelMap& map, Image& image);
+  GutterFill(const TriangleMesh& mesh, const TexelMap& map, Image& image, double bridge);
   void fill(Index texel, const NearestEdge& nearest) const;
 
  private:
@@ -47,10 +47,10 @@ class GutterFill {
   std::vector<std::pair<Index, TexelClaim>> only_claim_;  ///< per chart: claims, the first of them
 };
 
-GutterFill::GutterFill(const TriangleMesh& mesh, const TexelMap& map, Image& image)
+GutterFill::GutterFill(const TriangleMesh& mesh, const TexelMap& map, Image& image, double bridge)
     : map_(map),
       image_(image),
-      walk_(mesh, map),
+      walk_(mesh, map, bridge),
       lookup_(map, walk_, image),
       only_claim_(map.charts) {
   for (Index f = 0; f < mesh.faces.size(); ++f) {
@@ -194,11 +194,11 @@ void GutterFill::fill(Index texel, const NearestEdge& nearest) const {
 }  // namespace
 
 std::vector<Index> fill_gutter(const TriangleMesh& mesh, const TexelMap& map, int rings,
-                               Image& image) {
+                               Image& image, double bridge) {
   int grown = 0;
   std::vector<Index> gutter = gutter_texels(map, rings, &grown);
   const std::vector<NearestEdge> nearest = nearest_edges(mesh, map, grown, gutter);
-  const GutterFill fill(mesh, map, image);
+  const GutterFill fill(mesh, map, image, bridge);
   parallel_over(gutter.size(), [&](std::size_t i) {
     if (nearest[i].face != kNone) fill.fill(gutter[i], nearest[i]);
   });

@@ -205,7 +205,8 @@ Image run_filter(const TriangleMesh& mesh, const Image& texture, const FilterOpt
     stages.end();
 
     stages.begin("gutter");
-    report.gutter = fill_gutter(setup.mesh, setup.map, options.gutter, image).size();
+    report.gutter =
+        fill_gutter(setup.mesh, setup.map, options.gutter, image, setup.lengths.bridge).size();
     stages.end();
     return image;
   });
