@@ -58,6 +58,7 @@ Command distance_command() {
       "radius / 2.5, as the bilateral filter has it)");
   add("bridge", text("0"),
       "length: lead on to other parts across smaller gaps than this (default: none)");
+  add_weld_option(command.options);
   add("output,o", text(), "PLY to write: the welded mesh with a distance per vertex");
   add("nodes-ply", text(), "PLY to write: the nodes with a distance each");
   // As with the other commands, -t is the texture that is there; --texture is the result.
@@ -97,6 +98,7 @@ Nodes make_nodes(const InputMesh& input, const DistanceLengths& lengths) {
   nodes.bisected = refined.bisected;
   if (lengths.bridge > 0) {
     nodes.bridges = add_bridges(input.cleaned, lengths.bridge, nodes.surface);
+    if (nodes.bridges == 0) warn("--bridge: nothing was bridged, no gap is so narrow");
   }
   return nodes;
 }
@@ -150,9 +152,7 @@ void write_vertices(const std::string& path, const InputMesh& input,
   for (const Vec3& p : input.welded.positions) {
     for (std::size_t k = 0; k < 3; ++k) columns[k].values.push_back(p[Eigen::Index(k)]);
   }
-  columns[3].values.assign(input.welded.positions.size(), std::numeric_limits<double>::quiet_NaN());
-  const std::vector<Index> welded = welded_vertices(input);
-  for (Index v = 0; v < welded.size(); ++v) columns[3].values[welded[v]] = at_cleaned[v];
+  columns[3].values = at_welded_vertices(input, at_cleaned);
   write_ply(path, columns, input.welded.faces, {"geodesic distances by onmesh"});
 }
 
@@ -249,7 +249,7 @@ void print_errors(const DistanceRequest& request, const DistanceLengths& lengths
 int run_distance(const Arguments& arguments) {
   const std::string path = arguments.argument("mesh");
   const DistanceRequest request = read_distance_request(arguments);
-  const InputMesh input = read_input_mesh(path);
+  const InputMesh input = read_input_mesh(path, weld_of(arguments));
   warn(input.warnings);
   const TriangleMesh& mesh = input.cleaned;
   if ((request.exact() || request.compare) && !input.cleaning.manifold())

@@ -68,8 +68,12 @@ DistanceSource source_at_vertex(const InputMesh& input, std::int64_t vertex) {
   const std::string name = "--vertex: " + std::to_string(vertex);
   if (vertex < 0 || std::uint64_t(vertex) >= count)
     throw UsageError(name + ": " + input.path + " has vertices 0 to " + std::to_string(count - 1));
-  const Vec3& position = input.as_read.positions[std::size_t(vertex)];
   // Welding merges what is equal, so the position tells which vertex it became.
+  Vec3 position = input.as_read.positions[std::size_t(vertex)];
+  const auto& welded = input.welded.positions;
+  const auto found = std::find(welded.begin(), welded.end(), position);
+  if (found != welded.end())
+    position = input.joined.positions[input.joining.vertex[Index(found - welded.begin())]];
   const TriangleMesh& mesh = input.cleaned;
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     for (int k = 0; k < 3; ++k) {
@@ -106,18 +110,22 @@ DistanceSource source_at_point(const TriangleMesh& mesh, const Vec3& point) {
   return {closest, kNone, (mesh.position(closest) - point).norm()};
 }
 
-std::vector<Index> welded_vertices(const InputMesh& input) {
-  std::vector<Index> welded(input.cleaned.positions.size(), kNone);
+std::vector<double> at_welded_vertices(const InputMesh& input,
+                                       const std::vector<double>& at_cleaned) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> at_joined(input.joined.positions.size(), kUnknown);
   for (Index f = 0; f < input.cleaned.faces.size(); ++f) {
-    const auto& corners = input.welded.faces[input.cleaning.kept[f]];
+    const auto& corners = input.joined.faces[input.joined_faces[f]];
     for (const Index v : input.cleaned.faces[f]) {
       // The face may have been turned over.
       for (const Index w : corners) {
-        if (input.welded.positions[w] == input.cleaned.positions[v]) welded[v] = w;
+        if (input.joined.positions[w] == input.cleaned.positions[v]) at_joined[w] = at_cleaned[v];
       }
     }
   }
-  return welded;
+  std::vector<double> at_welded;
+  for (const Index w : input.joining.vertex) at_welded.push_back(at_joined[w]);
+  return at_welded;
 }
 
 void forget_beyond(double radius, std::vector<double>& distances) {

@@ -31,8 +31,10 @@ DistanceSource source_at_point(const TriangleMesh& mesh, const Vec3& point);
 /// radius, whichever is least, but not so small that there would be millions of nodes.
 double default_spacing(const TriangleMesh& mesh, double radius);
 
-/// For each vertex of the cleaned mesh its number in the welded one.
-std::vector<Index> welded_vertices(const InputMesh& input);
+/// Values at the vertices of the welded mesh from those at the cleaned one's; NaN where no face is
+/// left.
+std::vector<double> at_welded_vertices(const InputMesh& input,
+                                       const std::vector<double>& at_cleaned);
 
 /// Distance (mesh units) per node, right up to the radius (infinity = everywhere). Beyond it may be
 /// NaN, as is where no way leads.

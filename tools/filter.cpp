@@ -66,8 +66,9 @@ Command filter_command() {
       "length: how far samples count (default: 2.5 sigma bilateral, 3 sigma gaussian)");
   add("distance", text("auto"), "how distances are computed: auto, unfold, heat, cloud or exact");
   add("bridge", text("0"),
-      "length: join parts of the mesh across smaller gaps than this (default: none; parts do not "
-      "influence each other)");
+      "length: lead on across smaller gaps than this, between parts of the mesh and within them "
+      "(default: none; parts do not influence each other)");
+  add_weld_option(command.options);
   add("method", text("auto"),
       "how the sums are done: direct (pair by pair), nodes (at a cost per texel that does not "
       "depend on sigma), or auto: nodes where that is faster and within the tolerance");
@@ -137,6 +138,7 @@ FilterOptions filter_options(const Arguments& arguments) {
   options.spacing = arguments.optional_length("spacing");
   if (arguments.has("r-coef")) options.r_coef = arguments.number("r-coef");
   options.bridge = bridge_of(arguments);
+  options.weld = weld_of(arguments);
   options.node_spacing = arguments.optional_length("node-spacing");
   options.distance = distance_of(arguments);
   options.seed = std::uint64_t(arguments.integer("seed", 0, INT64_MAX));

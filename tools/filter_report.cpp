@@ -42,12 +42,21 @@ json lengths_json(const FilterReport& report) {
 }
 
 json counts_json(const FilterReport& report) {
-  return {{"texels", report.texels},         {"samples", report.samples},
-          {"nodes", report.nodes},           {"node_faces", report.node_faces},
-          {"bridges", report.bridges},       {"patches", report.patches},
-          {"table_rows", report.table_rows}, {"pairs", report.pairs},
-          {"taps_per_texel", report.taps},   {"overlapped_texels", report.overlapped},
-          {"gutter_texels", report.gutter},  {"texels_without_sample", report.without_sample}};
+  return {{"texels", report.texels},
+          {"samples", report.samples},
+          {"nodes", report.nodes},
+          {"node_faces", report.node_faces},
+          {"joined_edges", report.joined_edges},
+          {"t_junctions", report.t_junctions},
+          {"near_boundary_edges", report.near_edges},
+          {"bridges", report.bridges},
+          {"patches", report.patches},
+          {"table_rows", report.table_rows},
+          {"pairs", report.pairs},
+          {"taps_per_texel", report.taps},
+          {"overlapped_texels", report.overlapped},
+          {"gutter_texels", report.gutter},
+          {"texels_without_sample", report.without_sample}};
 }
 
 std::string number_text(double value) {
@@ -74,6 +83,9 @@ json to_json(const FilterPlan& plan) {
           {"sample_spacing", length_or_null(plan.sample_spacing)},
           {"largest_sample_spacing", length_or_null(plan.largest_sample_spacing)},
           {"surface_area", plan.surface_area},
+          {"joined_edges", plan.joined_edges},
+          {"t_junctions", plan.t_junctions},
+          {"near_boundary_edges", plan.near_edges},
           {"texels", plan.texels},
           {"overlapped_texels", plan.overlapped},
           {"estimated_samples", plan.samples},
@@ -140,6 +152,10 @@ void print_summary(const FilterReport& report, double seconds, std::ostream& out
     if (report.palette > 0) out << ", at most " << report.palette << " colours";
     out << "; of " << format_count(report.checked) << " values checked, RMS error "
         << number_text(report.rms_error) << ", largest " << number_text(report.max_error) << '\n';
+  }
+  if (report.joined_edges + report.t_junctions > 0) {
+    out << format_count(report.joined_edges) << " boundary edges joined, "
+        << format_count(report.t_junctions) << " T-junctions split\n";
   }
   if (report.bridges > 0) out << format_count(report.bridges) << " bridges between parts\n";
   for (const StageTime& stage : report.stages) {

@@ -11,6 +11,8 @@ const std::pair<const char*, const char*> kRenamed[] = {{"faces", "material"}};
 
 bool is_word(char c) { return (c >= 'a' && c <= 'z') || c == '_'; }
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 }  // namespace
 
 std::string dashed(const std::string& name) { return (name.size() == 1 ? "-" : "--") + name; }
@@ -28,7 +30,7 @@ std::string in_flags(const std::string& text) {
   std::string out;
   std::size_t word = 0;  // where the word at hand begins in `out`
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool has_value = i + 1 < text.size() && is_word(text[i + 1]);
+    const bool has_value = i + 1 < text.size() && (is_word(text[i + 1]) || is_digit(text[i + 1]));
     if (text[i] == '=' && word < out.size() && has_value) {
       out = out.substr(0, word) + flag_of_field(out.substr(word)) + ' ';
       word = out.size();

@@ -1,14 +1,17 @@
 #include "info_findings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "atlas.h"
+#include "flags.h"
 #include "format.h"
 #include "interruption.h"
 #include "messages.h"
 #include "onmesh/atlas/uv_overlap.h"
 #include "onmesh/base/face_error.h"
+#include "onmesh/mesh/coarse_coordinates.h"
 #include "shared_options.h"
 
 namespace onmesh::tools {
@@ -56,6 +59,9 @@ std::vector<TextureFacts> measure(const InputMesh& input, const Atlas& atlas, Fi
     }
     all.push_back(std::move(facts));
   }
+  std::vector<double> texel_size;
+  for (const double area : map.texel_area) texel_size.push_back(std::sqrt(area));
+  findings.near = find_near_boundaries(atlas.mesh, texel_size);
   if (images.size() > 1) {
     findings.seams = seam_error(atlas.mesh, map, images);
     measure_overlap(atlas, findings.mesh);
@@ -149,6 +155,12 @@ std::vector<std::string> find_problems(const Findings& findings) {
 
 std::vector<std::string> find_advice(const InputMesh& input, const Findings& findings) {
   std::vector<std::string> lines = advice(findings.mesh);
+  if (!findings.coarse.empty()) lines.push_back(findings.coarse);
+  if (const Index refused = input.joining.refused_edges; refused > 0) {
+    lines.push_back(std::to_string(refused) +
+                    " boundary edges lie within the tolerance of several others, or of chains of "
+                    "them: they are not joined");
+  }
   if (const Index fins = input.cleaning.fins; fins > 0) {
     lines.push_back(
         std::to_string(fins) +
@@ -156,6 +168,7 @@ std::vector<std::string> find_advice(const InputMesh& input, const Findings& fin
         "them out, so remove them if they are not meant to be there");
   }
   for (const std::string& line : findings.missing) lines.push_back(line);
+  if (findings.near.edges > 0) lines.push_back(in_flags(findings.near.text()));
   for (const TextureFacts& facts : findings.textures) {
     if (!facts.trouble.empty()) lines.push_back("texture " + facts.trouble);
     if (facts.crowded > 0) {
@@ -172,7 +185,8 @@ std::vector<std::string> find_advice(const InputMesh& input, const Findings& fin
 
 Findings examine(const InputMesh& input, const Arguments& arguments) {
   Findings findings;
-  findings.mesh = report_mesh(input.welded);
+  findings.mesh = report_mesh(input.joined);
+  findings.coarse = find_coarse_coordinates(input.as_read, input.welded).problem;
   check_interrupted();
   examine_textures(input, arguments, findings);
   check_interrupted();

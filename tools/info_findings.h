@@ -10,6 +10,7 @@
 #include "inputs.h"
 #include "onmesh/measure/mesh_report.h"
 #include "onmesh/measure/seam_error.h"
+#include "onmesh/mesh/near_boundaries.h"
 
 namespace onmesh::tools {
 
@@ -26,7 +27,9 @@ struct TextureFacts {
 /// The findings on one mesh file.
 struct Findings {
   MeshReport mesh;
+  std::string coarse;                  ///< what too coarse coordinates lost; empty if nothing
   std::vector<TextureFacts> textures;  ///< per material's image and UDIM tile
+  NearBoundaries near;                 ///< boundaries within a texel of others
   std::vector<std::string> missing;    ///< what faces of some tiles lack, a line each
   std::optional<SeamError> seams;      ///< of several textures in all
   std::vector<std::string> advice;

@@ -44,6 +44,7 @@ nlohmann::json mesh_json(const MeshReport& r) {
           {"faces_without_uvs", r.faces_without_uvs},
           {"degenerate_uvs", r.degenerate_uvs},
           {"mirrored_faces", r.mirrored_faces},
+          {"faces_running_back", r.running_back},
           {"overlap_share", r.overlap_share},
           {"max_overlap", r.max_overlap},
           {"uv_min", {r.uv_min.x(), r.uv_min.y()}},
@@ -87,6 +88,10 @@ void print_surface(const InputMesh& input, const MeshReport& r) {
   row("surface area", format_number(r.surface_area));
   row("diagonal", format_number(r.diagonal));
   row("mean edge", format_number(input.welded.mean_edge_length()));
+  if (!input.joining.nothing_done()) {
+    row("joined", format_count(input.joining.joined_edges) + " edges apart by rounding, " +
+                      format_count(input.joining.t_junctions) + " T-junctions");
+  }
 }
 
 void print_cleaning(const CleanReport& c) {
@@ -155,6 +160,9 @@ void print_json(const InputMesh& input, const Findings& findings) {
   json["vertices_in_file"] = input.as_read.positions.size();
   json.update(mesh_json(findings.mesh));
   json["mean_edge"] = input.welded.mean_edge_length();
+  json["joined_edges"] = input.joining.joined_edges;
+  json["t_junctions"] = input.joining.t_junctions;
+  json["refused_edges"] = input.joining.refused_edges;
   json["cleaning"] = cleaning_json(input.cleaning);
   json["materials"] = nlohmann::json::array();
   for (const Material& m : input.welded.materials) {
@@ -164,6 +172,7 @@ void print_json(const InputMesh& input, const Findings& findings) {
   }
   json["textures"] = nlohmann::json::array();
   for (const TextureFacts& t : findings.textures) json["textures"].push_back(texture_json(t));
+  json["near_boundary_edges"] = findings.near.edges;
   json["seams"] = findings.seams ? to_json(*findings.seams) : nlohmann::json();
   json["warnings"] = input.warnings;
   json["advice"] = findings.advice;
@@ -181,6 +190,9 @@ void print_text(const InputMesh& input, const Findings& findings) {
   print_materials(input.welded.materials);
   for (const TextureFacts& t : findings.textures) {
     if (t.trouble.empty()) print_texture(t);
+  }
+  if (findings.near.edges > 0) {
+    row("near boundaries", format_count(findings.near.edges) + " edges within a texel of others");
   }
   if (findings.seams) {
     std::cout << "textures in all\n";

@@ -15,12 +15,31 @@ namespace onmesh::tools {
 
 namespace fs = std::filesystem;
 
-InputMesh read_input_mesh(const std::string& path) {
+namespace {
+
+TriangleMesh join(const TriangleMesh& welded, const std::optional<Length>& weld,
+                  JoinReport& report) {
+  std::optional<double> tolerance;
+  if (weld) tolerance = resolve(*weld, 0, welded.diagonal());
+  return join_boundaries(welded, tolerance, &report);
+}
+
+}  // namespace
+
+TriangleMesh weld_and_join(const TriangleMesh& mesh, const std::optional<Length>& weld,
+                           JoinReport& report) {
+  return join(onmesh::weld(mesh), weld, report);
+}
+
+InputMesh read_input_mesh(const std::string& path, const std::optional<Length>& weld) {
   InputMesh mesh;
   mesh.path = path;
   mesh.as_read = read_mesh(path, &mesh.warnings);
-  mesh.welded = weld(mesh.as_read);
-  mesh.cleaned = clean(mesh.welded, &mesh.cleaning);
+  mesh.welded = onmesh::weld(mesh.as_read);
+  mesh.joined = join(mesh.welded, weld, mesh.joining);
+  mesh.cleaned = clean(mesh.joined, &mesh.cleaning);
+  mesh.joined_faces = mesh.cleaning.kept;
+  for (Index& f : mesh.cleaning.kept) f = mesh.joining.face[f];
   return mesh;
 }
 

@@ -1,12 +1,15 @@
 // Meshes made ready, and what is checked about files.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "onmesh/base/error.h"
 #include "onmesh/base/face_error.h"
+#include "onmesh/filter/length.h"
 #include "onmesh/mesh/clean.h"
+#include "onmesh/mesh/join_boundaries.h"
 #include "onmesh/nodes/refine.h"
 
 namespace onmesh::tools {
@@ -14,14 +17,23 @@ namespace onmesh::tools {
 /// A mesh file and what filtering makes of it.
 struct InputMesh {
   std::string path;
-  TriangleMesh as_read, welded;  ///< the same faces in the same order
-  TriangleMesh cleaned;          ///< as clean() leaves it
-  CleanReport cleaning;
+  TriangleMesh as_read, welded;     ///< the same faces in the same order
+  TriangleMesh joined;              ///< with boundaries joined: edges of some faces may be split
+  JoinReport joining;               ///< from `welded` to `joined`
+  TriangleMesh cleaned;             ///< as clean() leaves it
+  CleanReport cleaning;             ///< faces kept have their numbers in the file
+  std::vector<Index> joined_faces;  ///< per face of `cleaned` its number in `joined`
   std::vector<std::string> warnings;
 };
 
+/// \param weld the tolerance of joining boundaries, see FilterOptions::weld
 /// \throw FileError, InputError as read_mesh()
-InputMesh read_input_mesh(const std::string& path);
+InputMesh read_input_mesh(const std::string& path, const std::optional<Length>& weld);
+
+/// Weld the mesh and join its boundaries.
+/// \param weld as above
+TriangleMesh weld_and_join(const TriangleMesh& mesh, const std::optional<Length>& weld,
+                           JoinReport& report);
 
 /// The file in front of a message that begins with neither the file nor a flag.
 inline std::string named(const std::string& path, const std::string& message) {

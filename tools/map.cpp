@@ -11,6 +11,7 @@
 #include "messages.h"
 #include "onmesh/base/atomic_file.h"
 #include "onmesh/base/text.h"
+#include "onmesh/base/triangle.h"
 #include "onmesh/image/image_io.h"
 #include "report.h"
 #include "shared_options.h"
@@ -40,6 +41,7 @@ Command map_command() {
   add("output,o", text(),
       "the EXR to write; of several textures a folder/ or a name with <UDIM>, {stem}, ...");
   add_atlas_options(command.options);
+  add_weld_option(command.options);
   add("json", flag(), "statistics as JSON on stdout");
   add("quiet", flag(), "no summary");
   command.positional.add("mesh", 1);
@@ -53,8 +55,20 @@ enum Channel { kX, kY, kZ, kArea, kB0, kB1, kB2, kChart, kClaims, kCoverage, kFa
 const std::vector<std::string> kNames = {"x",  "y",     "z",      "area",     "b0",  "b1",
                                          "b2", "chart", "claims", "coverage", "face"};
 
-std::vector<Image> draw(const TriangleMesh& mesh, const TexelMap& map,
-                        const std::vector<Index>& file_face) {
+/// Barycentric coordinates in the file's face, of which this one may be a part.
+Vec3 in_file_face(const InputMesh& input, Index face, const Vec3& barycentric) {
+  const Index whole = input.cleaning.kept[face];
+  Vec3 sum = Vec3::Zero();
+  const auto part_uvs = input.cleaned.corner_uvs(face), uvs = input.as_read.corner_uvs(whole);
+  if (part_uvs == uvs) return barycentric;
+  for (std::size_t k = 0; k < 3; ++k) {
+    sum += barycentric[Eigen::Index(k)] * barycentric_in(uvs, part_uvs[k]);
+  }
+  return sum.allFinite() ? sum : barycentric;
+}
+
+/// \param mesh the cleaned one, with UVs of each face's own tile
+std::vector<Image> draw(const InputMesh& input, const TriangleMesh& mesh, const TexelMap& map) {
   std::vector<Image> images = images_like(map.tiles, kChannels);
   TexelValues texels;
   for (Image& image : images) {
@@ -72,11 +86,12 @@ std::vector<Image> draw(const TriangleMesh& mesh, const TexelMap& map,
       if (texel[kClaims]++ > 0) continue;
       const Vec3 b = map.barycentric(f, map.claims[c]);
       const Vec3 p = mesh.position({f, b});
-      texel[kFace] = float(file_face[f]);
+      const Vec3 whole = in_file_face(input, f, b);
+      texel[kFace] = float(input.cleaning.kept[f]);
       texel[kChart] = float(map.chart_of_face[f]);
       texel[kArea] = float(map.texel_area[f]);
       for (int k = 0; k < 3; ++k) {
-        texel[kB0 + k] = float(b[k]);
+        texel[kB0 + k] = float(whole[k]);
         texel[kX + k] = float(p[k]);
       }
     }
@@ -87,8 +102,8 @@ std::vector<Image> draw(const TriangleMesh& mesh, const TexelMap& map,
 // Cleaning turns faces over; barycentric coordinates are those of the file's corners.
 void restore_corner_order(const InputMesh& input, TriangleMesh& mesh) {
   for (Index f = 0; f < mesh.faces.size(); ++f) {
-    const auto& before = input.welded.faces[input.cleaning.kept[f]];
-    if (input.welded.positions[before[1]] == mesh.positions[mesh.faces[f][1]]) continue;
+    const auto& before = input.joined.faces[input.joined_faces[f]];
+    if (input.joined.positions[before[1]] == mesh.positions[mesh.faces[f][1]]) continue;
     std::swap(mesh.faces[f][1], mesh.faces[f][2]);
     std::swap(mesh.face_uvs[f][1], mesh.face_uvs[f][2]);
   }
@@ -176,9 +191,10 @@ int run_map(const Arguments& arguments) {
   const std::string path = arguments.argument("mesh"), output = arguments.text("output");
   wrap_of(arguments);
 
-  InputMesh input = read_input_mesh(path);
+  InputMesh input = read_input_mesh(path, weld_of(arguments));
   warn(input.warnings);
   check_interrupted();
+  restore_corner_order(input, input.cleaned);
   Atlas atlas = read_atlas(arguments, input.cleaned);
   atlas.images = {};
   warn(atlas.set.warnings);
@@ -186,13 +202,12 @@ int run_map(const Arguments& arguments) {
   std::optional<AtomicFolder> folder;
   if (!outputs.folder.empty()) folder.emplace(outputs.folder);
   check_outputs(outputs);
-  restore_corner_order(input, atlas.mesh);
   check_interrupted();
   const TexelMap map = covered_map(input, atlas);
   if (input.welded.faces.size() > (1U << 24))
     warn(output + ": face numbers beyond 16,777,216 are rounded, the channels are 32-bit float");
   check_interrupted();
-  const std::vector<Image> images = draw(atlas.mesh, map, input.cleaning.kept);
+  const std::vector<Image> images = draw(input, atlas.mesh, map);
   std::vector<ImageFile> files;
   for (std::size_t i = 0; i < images.size(); ++i) files.push_back({outputs.paths[i], &images[i]});
   write_images(files);

@@ -8,10 +8,10 @@
 #include "inputs.h"
 #include "interruption.h"
 #include "messages.h"
-#include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/mesh_io/write_ply.h"
 #include "onmesh/nodes/refine.h"
 #include "report.h"
+#include "shared_options.h"
 #include "subcommands.h"
 
 namespace onmesh::tools {
@@ -38,6 +38,7 @@ Command refine_command() {
   add("finest", text(), "spacing at cones, creases and reflex corners (default: a quarter)");
   add("growth", text("0.25"), "growth of the spacing away from them, per unit of distance");
   add("min-angle", text("25"), "smallest angle to leave, degrees, 0 to 30");
+  add_weld_option(command.options);
   add("json", flag(), "statistics as JSON on stdout");
   add("quiet", flag(), "no summary");
   command.positional.add("mesh", 1);
@@ -124,19 +125,15 @@ int run_refine(const Arguments& arguments) {
   if (arguments.has("output")) check_writable_file(arguments.text("output"));
   RefineOptions options = refine_options(arguments);
 
-  std::vector<std::string> warnings;
-  const TriangleMesh read = weld(read_mesh(path, &warnings));
-  CleanReport cleaning;
-  const TriangleMesh mesh = clean(read, &cleaning);
-  warn(warnings);
+  const InputMesh input = read_input_mesh(path, weld_of(arguments));
+  const TriangleMesh& mesh = input.cleaned;
+  warn(input.warnings);
   set_lengths(arguments, mesh.diagonal(), options);
   check_node_count(mesh, options);
   check_interrupted();
   RefineReport report;
-  const NodeSurface surface = naming(path, [&] {
-    return with_face_numbers(cleaning.kept,
-                             [&] { return refine(mesh, cleaning, options, &report); });
-  });
+  const NodeSurface surface =
+      naming(input, [&] { return refine(mesh, input.cleaning, options, &report); });
   check_interrupted();
   if (arguments.has("output")) write_nodes(arguments.text("output"), mesh, surface.nodes);
 

@@ -49,6 +49,7 @@ Command sample_command() {
       "least distance, the same everywhere: mesh units, 2tx (texels) or 1% (of the diagonal)");
   add("r-coef", text(), "the same as a multiple of the mean edge length");
   add("seed", text("1"), "another seed gives other samples");
+  add_weld_option(command.options);
   add("json", flag(), "print the report as JSON");
   add("quiet,q", flag(), "print nothing but errors and JSON");
   command.positional.add("mesh", 1);
@@ -129,7 +130,9 @@ Vec3 normal(const TriangleMesh& mesh, Index face) {
 }
 
 /// \param spacings a column of them, unless null
-std::vector<PlyColumn> columns(const TriangleMesh& mesh, const std::vector<SurfacePoint>& samples,
+/// \param file_face per face of the mesh its number in the file
+std::vector<PlyColumn> columns(const TriangleMesh& mesh, const std::vector<Index>& file_face,
+                               const std::vector<SurfacePoint>& samples,
                                const std::vector<double>* spacings) {
   std::vector<PlyColumn> result;
   const auto add = [&](std::string name, const auto& value_of) {
@@ -155,7 +158,7 @@ std::vector<PlyColumn> columns(const TriangleMesh& mesh, const std::vector<Surfa
     add(k == 0 ? "u" : "v",
         [&](const SurfacePoint& s) { return mesh.has_uvs(s.face) ? mesh.uv(s)[k] : std::nan(""); });
   }
-  add("face", [](const SurfacePoint& s) { return s.face; });
+  add("face", [&](const SurfacePoint& s) { return file_face[s.face]; });
   result.back().integer = true;
   if (spacings != nullptr) {
     result.push_back({});
@@ -238,7 +241,9 @@ int run_sample(const Arguments& arguments) {
   const bool quiet = arguments.flag("quiet");
 
   std::vector<std::string> warnings;
-  const TriangleMesh mesh = weld(read_mesh(path, &warnings));
+  const std::optional<Length> weld = weld_of(arguments);
+  JoinReport joining;
+  const TriangleMesh mesh = weld_and_join(read_mesh(path, &warnings), weld, joining);
   if (!quiet) warn(warnings);
   check_interrupted();
   const Plan plan = naming(path, [&] { return make_plan(arguments, mesh); });
@@ -254,8 +259,9 @@ int run_sample(const Arguments& arguments) {
   check_interrupted();
   Findings found = examine(mesh, plan, samples);
   found.seconds = seconds;
-  write_ply(output, columns(mesh, samples.points, plan.graded ? &samples.spacings : nullptr), {},
-            {"onmesh Poisson-disk samples, spacing " + spacing_text(found, plan)});
+  write_ply(output,
+            columns(mesh, joining.face, samples.points, plan.graded ? &samples.spacings : nullptr),
+            {}, {"onmesh Poisson-disk samples, spacing " + spacing_text(found, plan)});
   if (arguments.flag("json")) {
     print_json(arguments, plan, found);
   } else if (!quiet) {

@@ -1,6 +1,7 @@
 // Options that several subcommands take: what they are, and how they are read.
 #pragma once
 
+#include <boost/program_options/options_description.hpp>
 #include <optional>
 
 #include "arguments.h"
@@ -13,7 +14,13 @@ namespace onmesh::tools {
 Wrap wrap_of(const Arguments& arguments);
 /// The length that --bridge gives, nothing for none (0, the default).
 std::optional<Length> bridge_of(const Arguments& arguments);
+/// The length that --weld gives, nothing for its default.
+/// \throw UsageError if it is in texels
+std::optional<Length> weld_of(const Arguments& arguments);
 /// The value of --distance.
 DistanceMethod distance_of(const Arguments& arguments);
+
+/// Adds --weld.
+void add_weld_option(boost::program_options::options_description& options);
 
 }  // namespace onmesh::tools

@@ -214,6 +214,30 @@ TEST_CASE("seams of a cube's smooth texture close as texels shrink", "[gutter]")
   CHECK(last < 0.007);  // first order: the texture has a kink at every edge
 }
 
+TEST_CASE("over a bridged gap the texture goes on as if there were none", "[gutter][bridge]") {
+  constexpr double kGap = 1e-4;
+  const TriangleMesh whole = halves(6);
+  TriangleMesh parted = whole;  // right of x = 1/2 with vertices of its own
+  const auto vertices = Index(whole.positions.size());
+  for (const Vec3& p : whole.positions) parted.positions.push_back(p + Vec3(kGap, 0, 0));
+  for (Index f = 0; f < parted.faces.size(); ++f) {
+    const auto c = whole.corners(f);
+    if (c[0].x() + c[1].x() + c[2].x() < 1.5) continue;
+    for (Index& v : parted.faces[f]) v += vertices;
+  }
+  parted = weld(parted);
+  const auto filled = [](const TriangleMesh& mesh, double bridge) {
+    const TexelMap map = make_texel_map(mesh, 90, 80);
+    Image image = paint(mesh, map, linear, 0);
+    fill_gutter(mesh, map, 4, image, bridge);
+    return image;
+  };
+  const Image expected = filled(whole, 0);
+  CHECK(largest_difference(filled(parted, 2 * kGap), expected) < 2 * kGap);
+  CHECK(largest_difference(filled(parted, 0), expected) > 0.005F);
+  CHECK(largest_difference(filled(parted, kGap / 2), expected) > 0.005F);
+}
+
 TEST_CASE("the nearer of two charts fills the texels between them", "[gutter]") {
   // Two squares that are not connected, columns 2 to 7 and 12 to 17 of 20.
   TriangleMesh mesh = flat({{0.1, 0.1},

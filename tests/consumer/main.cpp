@@ -34,6 +34,11 @@ int main() try {
   onmesh::FilterReport report;
   const onmesh::Image after = onmesh::filter(mesh, before, options, &report);
 
+  // The same as a surface of tiles, here of one.
+  onmesh::SurfaceTextures textures;
+  textures.tiles = {{&before, onmesh::Wrap::repeat, 0, 0, "cube"}};
+  if (onmesh::filter(mesh, textures, options).at(0).pixels != after.pixels) return 3;
+
   std::printf("%llu texels filtered with %s\n", static_cast<unsigned long long>(report.texels),
               report.backend.c_str());
   return report.texels > 0 && roughness(after) < roughness(before) ? 0 : 1;

@@ -221,6 +221,60 @@ TEST_CASE("two squares with a bridged gap filter like one plane with that gap", 
   }
 }
 
+TEST_CASE("a slit within one part is bridged like a gap between two", "[bridge]") {
+  // Two squares that are joined by a bar above the gap.
+  const double gap = 0.01;
+  TriangleMesh mesh = two_squares(gap, 4);
+  const auto at = [&](const Vec3& p) {
+    for (Index v = 0; v < mesh.positions.size(); ++v)
+      if ((mesh.positions[v] - p).norm() < 1e-12) return v;
+    return kNone;
+  };
+  const Index a = at({0.75, 1, 0}), b = at({1, 1, 0}), c = at({1 + gap, 1, 0});
+  REQUIRE(std::max({a, b, c}) < kNone);
+  const auto top = Index(mesh.positions.size());
+  mesh.positions.emplace_back(1, 1.25, 0);
+  mesh.uvs.emplace_back(0.99, 0.99);
+  for (const std::array<Index, 3>& face : {std::array{a, b, top}, std::array{b, c, top}}) {
+    mesh.faces.push_back(face);
+    mesh.face_uvs.push_back(face);
+    mesh.face_materials.push_back(kNone);
+  }
+  NodeSurface surface = refined(mesh, 0.1);
+  CHECK(add_bridges(mesh, gap / 2, surface) == 0);
+  const Index bridges = add_bridges(mesh, 2 * gap, surface);
+  CHECK(bridges > 10);
+  int over = 0;
+  for (Index source = 0; source < surface.nodes.nodes.size(); source += 7) {
+    const std::vector<double> d = distances_from_node(surface.nodes, source);
+    const Vec3 x = mesh.position(surface.nodes.nodes[source]);
+    if (x.y() > 0.8) continue;
+    for (Index n = 0; n < d.size(); ++n) {
+      const Vec3 y = mesh.position(surface.nodes.nodes[n]);
+      if (y.y() > 0.8) continue;
+      CHECK(d[n] > (y - x).norm() - gap - 2e-6);
+      CHECK(d[n] < (y - x).norm() + gap + 2e-6);
+      over += (x.x() > 1) != (y.x() > 1);
+    }
+  }
+  CHECK(over > 100);
+}
+
+TEST_CASE("bridging nothing is said", "[bridge]") {
+  FilterOptions options;
+  options.sigma_spatial = {0.1, Length::Unit::mesh};
+  options.bridge = Length{0.01, Length::Unit::mesh};
+  FilterReport report;
+  filter(two_squares(0.05), make_image(32, 16, 1), options, &report);
+  CHECK(report.bridges == 0);
+  REQUIRE(report.warnings.size() == 1);
+  CHECK_THAT(report.warnings[0], Catch::Contains("nothing was bridged"));
+  options.bridge = Length{0.06, Length::Unit::mesh};
+  filter(two_squares(0.05), make_image(32, 16, 1), options, &report);
+  CHECK(report.bridges > 0);
+  CHECK(report.warnings.empty());
+}
+
 TEST_CASE("senseless bridges are refused", "[bridge]") {
   const TriangleMesh chest = make_chest();
   const Image texture = make_image(64, 64, 1);

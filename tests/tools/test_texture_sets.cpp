@@ -131,7 +131,7 @@ TEST_CASE("every command takes sets of textures", "[tools][sets]") {
   const Image far = read_image(space / "d/t.1002.exr");
   CHECK(far.texel(31 * 32)[0] == Approx(2 + 1.0 / 32).margin(0.01));
 
-  CHECK(space.must("sample udim.obj -o s.ply --json").json()["texels_hit"] == 2 * 32 * 32);
+  CHECK(space.must("sample udim.obj -o s.ply --json").json()["texels"]["hit"] == 2 * 32 * 32);
   space.must("view udim.obj --after 'o.<UDIM>.png' --after o.1001.png -o p.png --size 50");
   CHECK(read_image(space / "p.png").width > 150);
 }

@@ -31,7 +31,8 @@ struct Place {
 
 class GutterFill {
  public:
-  GutterFill(const TriangleMesh& mesh, const TexelMap& map, const TexelValues& values);
+  GutterFill(const TriangleMesh& mesh, const TexelMap& map, const TexelValues& values,
+             double bridge);
   void fill(Index texel, const NearestEdge& nearest) const;
 
  private:
@@ -47,10 +48,11 @@ class GutterFill {
   std::vector<std::pair<Index, TexelClaim>> only_claim_;  ///< per chart: claims, the first of them
 };
 
-GutterFill::GutterFill(const TriangleMesh& mesh, const TexelMap& map, const TexelValues& values)
+GutterFill::GutterFill(const TriangleMesh& mesh, const TexelMap& map, const TexelValues& values,
+                       double bridge)
     : map_(map),
       values_(values),
-      walk_(mesh, map),
+      walk_(mesh, map, bridge),
       lookup_(map, walk_, values),
       only_claim_(map.charts) {
   for (Index f = 0; f < mesh.faces.size(); ++f) {
@@ -195,11 +197,11 @@ void GutterFill::fill(Index texel, const NearestEdge& nearest) const {
 }  // namespace
 
 std::vector<Index> fill_gutter(const TriangleMesh& mesh, const TexelMap& map, int rings,
-                               const TexelValues& values) {
+                               const TexelValues& values, double bridge) {
   int grown = 0;
   std::vector<Index> gutter = gutter_texels(map, rings, &grown);
   const std::vector<NearestEdge> nearest = nearest_edges(mesh, map, grown, gutter);
-  const GutterFill fill(mesh, map, values);
+  const GutterFill fill(mesh, map, values, bridge);
   parallel_over(gutter.size(), [&](std::size_t i) {
     if (nearest[i].face != kNone) fill.fill(gutter[i], nearest[i]);
   });
@@ -211,8 +213,8 @@ std::vector<Index> fill_gutter(const TriangleMesh& mesh, const TexelMap& map, in
 }
 
 std::vector<Index> fill_gutter(const TriangleMesh& mesh, const TexelMap& map, int rings,
-                               Image& image) {
-  return fill_gutter(mesh, map, rings, texels_of(image));
+                               Image& image, double bridge) {
+  return fill_gutter(mesh, map, rings, texels_of(image), bridge);
 }
 
 }  // namespace onmesh

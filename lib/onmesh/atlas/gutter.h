@@ -31,15 +31,18 @@ namespace onmesh {
 /// flat surface goes on linearly. With one ring or more, bilinear look-ups on charts see no other
 /// texels than covered and filled ones. Covered texels are read and not changed, nor is any alpha
 /// channel. Rings wrap around the image with Wrap::repeat.
+/// Over a gap between boundaries that is bridged, the surface goes on as far beyond it as the gap
+/// is wide.
 /// \param rings number of rings, >= 0
 /// \param values of the texels of all tiles
+/// \param bridge width of the widest gap that is bridged, mesh units; 0 = none
 /// \pre mesh, map and images belong together
 /// \return the texels that were filled, ascending
 std::vector<Index> fill_gutter(const TriangleMesh& mesh, const TexelMap& map, int rings,
-                               const TexelValues& values);
+                               const TexelValues& values, double bridge = 0);
 
 /// The same for a map of one tile.
 std::vector<Index> fill_gutter(const TriangleMesh& mesh, const TexelMap& map, int rings,
-                               Image& image);
+                               Image& image, double bridge = 0);
 
 }  // namespace onmesh

@@ -16,10 +16,18 @@ constexpr double kInside = -1e-9;  // barycentric
 
 std::size_t next(std::size_t k) { return (k + 1) % 3; }
 
+/// Where the way from a to b crosses the edge from p to q, or the end of that which is closer.
+Vec2 point_on_way(const Vec2& a, const Vec2& b, const Vec2& p, const Vec2& q) {
+  const double side_p = twice_area(a, b, p), side_q = twice_area(a, b, q);
+  const double t = side_p == side_q ? 0 : std::clamp(side_p / (side_p - side_q), 0.0, 1.0);
+  return p + t * (q - p);
+}
+
 }  // namespace
 
-UnfoldedWalk::UnfoldedWalk(const TriangleMesh& mesh, const TexelMap& map)
-    : mesh_(mesh), map_(map), across_(3 * mesh.faces.size(), kNone) {
+UnfoldedWalk::UnfoldedWalk(const TriangleMesh& mesh, const TexelMap& map, double bridge)
+    : mesh_(mesh), map_(map), bridge_(bridge), across_(3 * mesh.faces.size(), kNone) {
+  if (bridge > 0) gaps_.emplace(mesh);
   std::vector<Index> offsets(mesh.positions.size() + 1, 0);
   for (const auto& face : mesh.faces)
     for (const Index v : face) ++offsets[v + 1];
@@ -151,7 +159,10 @@ WalkEnd UnfoldedWalk::walk_out(const LaidFace& start, int edge, const Vec2& from
     const Index entered =
         by_uv ? across_in_chart(end.laid.face, edge) : across(end.laid.face, edge);
     const auto onward = cross<by_uv>(end.laid, edge);
-    if (!onward) break;
+    if (!onward) {
+      end.barred = edge;
+      break;
+    }
     end.laid = *onward;
     const auto corners = steering_corners<by_uv>(end.laid);
     const bool can_hold = !by_uv || map_.chart_of_face[end.laid.face] != kNone;
@@ -170,10 +181,7 @@ WalkEnd UnfoldedWalk::walk_out(const LaidFace& start, int edge, const Vec2& from
         std::abs(side_b) >= std::abs(side_a) ? side_b * side_c <= 0 : side_a * side_c > 0;
     const std::size_t exit = by_b ? b : c;
     edge = int(exit);
-    const Vec2 &p = corners[exit], &q = corners[next(exit)];
-    const double side_p = twice_area(from, to, p), side_q = twice_area(from, to, q);
-    const double t = side_p == side_q ? 0 : std::clamp(side_p / (side_p - side_q), 0.0, 1.0);
-    end.point = p + t * (q - p);
+    end.point = point_on_way(from, to, corners[exit], corners[next(exit)]);
   }
   return end;
 }
@@ -214,7 +222,74 @@ WalkEnd UnfoldedWalk::over_edge(const LaidFace& start, int k, const Vec2& from,
   WalkEnd end = walk_out<false>(start, k, from, to);
   if (end.arrived) return end;
   const WalkEnd other = over_surface(start, from, to);
-  return other.arrived ? other : end;
+  if (other.arrived) return other;
+  if (const auto beyond = over_gap(end, to)) return *beyond;
+  return over_gap(other, to).value_or(end);
+}
+
+/// Go on across the gap that the way ends at, if there is a bridge.
+std::optional<WalkEnd> UnfoldedWalk::over_gap(const WalkEnd& barred, const Vec2& to) const {
+  if (!gaps_ || barred.barred < 0) return std::nullopt;
+  const auto k = std::size_t(barred.barred);
+  const Index edge = gaps_->edge_of(barred.laid.face, Index(k));
+  if (edge == kNone) return std::nullopt;
+  BoundaryPoint here{edge, 0};
+  squared_distance_to_segment(barred.point, barred.laid.corners[k], barred.laid.corners[next(k)],
+                              &here.position);
+  const auto there = gaps_->across(here, bridge_);
+  if (!there) return std::nullopt;
+  Vec2 landing;
+  const LaidFace laid = lay_out_across(barred, *there, landing);
+  // What lies over the gap belongs to its nearer side.
+  if ((to - barred.point).norm() < (to - landing).norm()) return std::nullopt;
+  WalkEnd end = over_surface(laid, landing, to);
+  if (!end.arrived && end.barred >= 0 && end.laid.face == laid.face) {
+    // Barred before another face was entered: go on to where the face ends.
+    const auto exit = std::size_t(end.barred);
+    end.point = point_on_way(landing, to, laid.corners[exit], laid.corners[next(exit)]);
+  }
+  return end;
+}
+
+/// The face beyond the gap, in the plane of the one before it: its edge as far away and turned as
+/// much as it is in space, the face itself on the far side of that.
+/// \param point receives where the way lands
+LaidFace UnfoldedWalk::lay_out_across(const WalkEnd& barred, const BoundaryPoint& there,
+                                      Vec2& point) const {
+  const auto k = std::size_t(barred.barred);
+  const auto p = mesh_.corners(barred.laid.face);
+  const Vec3 along = (p[next(k)] - p[k]).normalized();
+  Vec3 out = p[k] - p[(k + 2) % 3];
+  out = (out - out.dot(along) * along).normalized();
+  const auto& plane = barred.laid.corners;
+  const Vec2 along2 = (plane[next(k)] - plane[k]).normalized();
+  const Vec2 out2 = barred.laid.winding * Vec2(along2.y(), -along2.x());
+
+  const BoundaryEdge& edge = gaps_->edges()[there.edge];
+  const std::size_t l = edge.corner;
+  const auto q = mesh_.corners(edge.face);
+  const Vec3 side = q[next(l)] - q[l], apex = q[(l + 2) % 3] - q[l];
+  const double length = side.norm();
+  const Vec3 gap = gaps_->position(there) - (p[k] + (barred.point - plane[k]).dot(along2) * along);
+  const double ahead = gap.dot(along);
+  point = barred.point + ahead * along2 + (gap - ahead * along).norm() * out2;
+  const double turned = side.dot(along) / length;
+  const double rise = std::sqrt(std::max(0.0, 1 - turned * turned));
+  const Vec2 side2 = turned * along2 + (side.dot(out) < 0 ? -rise : rise) * out2;
+  Vec2 inward(-side2.y(), side2.x());
+  LaidFace laid;
+  laid.face = edge.face;
+  // An edge that runs away from this one lies beside its face as it does in space.
+  const Vec3 inward3 = apex - side.dot(apex) / (length * length) * side;
+  const bool parallel = std::abs(turned) > rise;
+  const Vec2 wanted = parallel ? out2 : Vec2(inward3.dot(along) * along2 + inward3.dot(out) * out2);
+  laid.winding = inward.dot(wanted) < 0 ? -1 : 1;
+  inward *= laid.winding;
+  laid.corners[l] = point - there.position * length * side2;
+  laid.corners[next(l)] = laid.corners[l] + length * side2;
+  laid.corners[(l + 2) % 3] =
+      laid.corners[l] + side.dot(apex) / length * side2 + side.cross(apex).norm() / length * inward;
+  return laid;
 }
 
 std::optional<LaidFace> UnfoldedWalk::within_chart(const LaidFace& start, const Vec2& from,

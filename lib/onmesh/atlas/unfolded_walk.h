@@ -9,6 +9,7 @@
 
 #include "onmesh/atlas/texel_map.h"
 #include "onmesh/base/triangle.h"
+#include "onmesh/mesh/gap_search.h"
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {
@@ -27,6 +28,7 @@ struct WalkEnd {
   LaidFace laid;
   Vec2 point;            ///< in the plane
   bool arrived = false;  ///< else the way is barred at the point, on the face's border
+  int barred = -1;       ///< by this edge of the face, if it is known
 };
 
 /// Straight walks over a mesh: over each edge into the next face, which is unfolded into the plane
@@ -34,8 +36,10 @@ struct WalkEnd {
 /// polyhedral surfaces", 1998; they do not say what happens where more than two faces meet).
 class UnfoldedWalk {
  public:
+  /// \param bridge gaps between boundaries up to this width are walked over by over_edge(), mesh
+  ///   units; 0 = none
   /// \pre mesh and map belong together and outlive this
-  UnfoldedWalk(const TriangleMesh& mesh, const TexelMap& map);
+  UnfoldedWalk(const TriangleMesh& mesh, const TexelMap& map, double bridge = 0);
 
   /// The face on its own, corner 0 at the origin.
   LaidFace lay_out(Index face) const;
@@ -65,6 +69,8 @@ class UnfoldedWalk {
   Index across_in_chart(Index face, int k) const;
 
  private:
+  std::optional<WalkEnd> over_gap(const WalkEnd& barred, const Vec2& to) const;
+  LaidFace lay_out_across(const WalkEnd& barred, const BoundaryPoint& there, Vec2& point) const;
   template <bool by_uv>
   WalkEnd walk(const LaidFace& start, const Vec2& from, const Vec2& to) const;
   template <bool by_uv>
@@ -79,6 +85,8 @@ class UnfoldedWalk {
 
   const TriangleMesh& mesh_;
   const TexelMap& map_;
+  const double bridge_;
+  std::optional<GapSearch> gaps_;                  // with bridges
   std::vector<Index> across_;                      ///< per side 3 f + k
   std::vector<std::pair<Index, Index>> in_chart_;  ///< sides where that is another face, ascending
 };

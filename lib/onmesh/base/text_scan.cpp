@@ -83,8 +83,9 @@ double TextScan::number(std::string_view text, const char* what) const {
   return value;
 }
 
-double TextScan::finite(const char* what) {
-  const std::string_view text = token();
+double TextScan::finite(const char* what, std::string_view* token) {
+  const std::string_view text = this->token();
+  if (token != nullptr) *token = text;
   const double value = number(text, what);
   if (!std::isfinite(value)) fail(std::string(what) + " is not finite: " + quote(text));
   return value;

@@ -60,8 +60,9 @@ class TextScan {
   /// The same of a token that was taken already.
   double number(std::string_view text, const char* what) const;
   /// The number that comes next on this line.
+  /// \param token if given, receives the number as the text has it
   /// \throw InputError also if it is not finite
-  double finite(const char* what);
+  double finite(const char* what, std::string_view* token = nullptr);
 
   /// \throw InputError naming the file and the current line
   [[noreturn]] void fail(const std::string& what) const { fail_at(line_, what); }

@@ -60,6 +60,9 @@ void note_plan(const FilterPlan& plan, FilterReport& report) {
   report.largest_sample_spacing = plan.largest_sample_spacing;
   report.texel_size = plan.texel_size;
   report.overlapped = plan.overlapped;
+  report.joined_edges = plan.joined_edges;
+  report.t_junctions = plan.t_junctions;
+  report.near_edges = plan.near_edges;
   report.warnings = plan.warnings;
 }
 
@@ -130,6 +133,10 @@ NodeSurface make_nodes(const RunContext& run, std::vector<Image>& images) {
   }
   if (setup.lengths.bridge > 0) {
     run.report.bridges = add_bridges(setup.mesh, setup.lengths.bridge, surface);
+    if (run.report.bridges == 0) {
+      run.report.warnings.emplace_back(
+          "nothing was bridged: no boundaries or parts of the mesh are so close to each other");
+    }
   }
   run.report.nodes = surface.nodes.nodes.size();
   run.report.node_faces = surface.nodes.faces.size();
@@ -205,7 +212,8 @@ std::vector<Image> run_filter(const TriangleMesh& mesh, const SurfaceTextures& t
     stages.end();
 
     stages.begin("gutter");
-    report.gutter = fill_gutter(setup.mesh, setup.map, options.gutter, values).size();
+    report.gutter =
+        fill_gutter(setup.mesh, setup.map, options.gutter, values, setup.lengths.bridge).size();
     stages.end();
     return images;
   });

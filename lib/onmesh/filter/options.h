@@ -48,9 +48,13 @@ struct FilterOptions {
 
   /// How distances are computed; `automatic` = unfold.
   DistanceMethod distance = DistanceMethod::automatic;
-  /// Components are joined across smaller gaps than this; > 0, not with exact distances. Default:
-  /// none, components do not influence each other.
+  /// Components, and boundaries of one component that face each other, are joined across smaller
+  /// gaps than this; > 0, not with exact distances. Default: none.
   std::optional<Length> bridge;
+  /// Boundary edges that differ by no more than this are one, and edges are split at vertices no
+  /// farther from them, see join_boundaries(); >= 0, not in texels. Default: two steps of the
+  /// coordinates as they were stored; 0 = only what is equal bit by bit.
+  std::optional<Length> weld;
   /// Between the nodes of the distance tables; > 0. Default: see node_spacing_for().
   std::optional<Length> node_spacing;
 

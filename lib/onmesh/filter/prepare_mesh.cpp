@@ -4,9 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "onmesh/atlas/running_back.h"
 #include "onmesh/base/face_error.h"
 #include "onmesh/base/text.h"
 #include "onmesh/filter/memory_plan.h"
+#include "onmesh/mesh/coarse_coordinates.h"
 
 namespace onmesh {
 namespace {
@@ -21,10 +23,36 @@ Index count_unused(const TriangleMesh& mesh) {
   return static_cast<Index>(std::count(used.begin(), used.end(), false));
 }
 
+/// The tolerance of joining boundaries, mesh units; nothing for its default.
+std::optional<double> weld_tolerance(const TriangleMesh& welded, const FilterOptions& options) {
+  if (!options.weld) return std::nullopt;
+  return resolve(*options.weld, 0, welded.diagonal());
+}
+
+void warn_of_joining(const JoinReport& report, std::vector<std::string>& warnings) {
+  if (report.refused_edges == 0) return;
+  warnings.push_back(count_text(report.refused_edges, "boundary edge lies", "boundary edges lie") +
+                     " within the tolerance of several others, or of chains of them: they stay "
+                     "apart");
+}
+
+/// Edges on both sides of gaps that look like none.
+void warn_of_near_boundaries(PreparedMesh& prepared, const FilterOptions& options) {
+  std::vector<double> texel_size;
+  for (const double area : prepared.map.texel_area) texel_size.push_back(std::sqrt(area));
+  NearBoundaries& near = prepared.near;
+  near = find_near_boundaries(prepared.mesh, texel_size);
+  near.width *= prepared.unit;
+  if (near.edges == 0 || options.bridge) return;
+  prepared.warnings.push_back(near.text());
+}
+
 /// Tell what cleaning changed, and what the mesh still is.
-void warn_of_cleaning(const TriangleMesh& mesh, const CleanReport& report,
+/// \param lost faces that rounding took, which has been told
+void warn_of_cleaning(const TriangleMesh& mesh, const CleanReport& report, Index lost,
                       std::vector<std::string>& warnings) {
-  if (const Index dropped = report.collapsed + report.duplicates + report.fins; dropped > 0) {
+  if (const Index dropped = report.collapsed + report.duplicates + report.fins - lost;
+      dropped > 0) {
     warnings.push_back(faces_text(dropped) +
                        " dropped: repeated vertices, duplicates of other faces, or fins");
   }
@@ -94,6 +122,16 @@ void warn_of_sizes(const PreparedMesh& prepared, const SurfaceTextures& textures
                        number_text(own * prepared.unit) + " wide, those of all textures " +
                        number_text(all * prepared.unit) + " (median): 1tx is the latter");
   }
+}
+
+/// A closed wrap without UVs for its end.
+void warn_of_running_back(const TriangleMesh& mesh, const TexelMap& map,
+                          std::vector<std::string>& warnings) {
+  const Index faces = count_running_back(mesh, map.chart_of_face);
+  if (faces == 0) return;
+  warnings.push_back(count_text(faces, "face runs", "faces run") +
+                     " back over the whole texture: at the seam of a closed wrap, vertices need "
+                     "UVs of their own at the texture's end");
 }
 
 /// Faces that hold texels by their UVs, but have no place for a sample on the surface.
@@ -171,13 +209,18 @@ PreparedMesh prepare_mesh(const TriangleMesh& mesh, const SurfaceTextures& textu
                           const FilterOptions& options) {
   PreparedMesh out;
   out.mesh = weld(mesh);
+  const CoarseCoordinates coarse = find_coarse_coordinates(mesh, out.mesh);
+  if (!coarse.problem.empty()) out.warnings.push_back(coarse.problem);
+  out.mesh = join_boundaries(out.mesh, weld_tolerance(out.mesh, options), &out.joining);
+  warn_of_joining(out.joining, out.warnings);
   if (options.stop_at_materials) out.mesh = separate_materials(out.mesh);
   const double scale = scale_into_range(out.mesh);
   if (scale != 1) {
     for (Vec3& p : out.mesh.positions) p *= scale;
   }
   out.mesh = clean(out.mesh, &out.cleaning);
-  warn_of_cleaning(mesh, out.cleaning, out.warnings);
+  for (Index& f : out.cleaning.kept) f = out.joining.face[f];
+  warn_of_cleaning(mesh, out.cleaning, coarse.problem.empty() ? 0 : coarse.collapsed, out.warnings);
   if (options.distance == DistanceMethod::exact && !out.cleaning.manifold()) {
     throw InputError("distance=exact: the mesh is not manifold (" + out.cleaning.defects() +
                      "); use unfold");
@@ -196,9 +239,11 @@ PreparedMesh prepare_mesh(const TriangleMesh& mesh, const SurfaceTextures& textu
   require_claims(out.mesh, out.map, tile_of_face);
   warn_of_thin_faces(out.mesh, tile_of_face, out.warnings);
   fit_unit_to_texels(out);
+  if (!options.stop_at_materials) warn_of_near_boundaries(out, options);
   if (textures.tiles.size() == 1) warn_of_wrapping(out.mesh, out.map, out.warnings);
   warn_of_crossing(out.mesh, out.map, out.warnings);
   warn_of_sizes(out, textures, out.warnings);
+  warn_of_running_back(out.mesh, out.map, out.warnings);
   return out;
 }
 

@@ -8,13 +8,18 @@
 #include "onmesh/filter/options.h"
 #include "onmesh/filter/surface_textures.h"
 #include "onmesh/mesh/clean.h"
+#include "onmesh/mesh/join_boundaries.h"
+#include "onmesh/mesh/near_boundaries.h"
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {
 
 struct PreparedMesh {
-  TriangleMesh mesh;  ///< welded and clean, in working units, UVs those of each face's own tile
-  CleanReport cleaning;
+  /// Welded, joined and clean, in working units, UVs those of each face's own tile.
+  TriangleMesh mesh;
+  JoinReport joining;    ///< of the boundaries
+  CleanReport cleaning;  ///< faces kept are those of the mesh as read; parts of one have its number
+  NearBoundaries near;   ///< boundaries that stay apart, in mesh units
   TexelMap map;
   /// Mesh units per working unit: the power of two that brings the mesh's diagonal near 1, so that
   /// squared distances in float neither overflow nor vanish, whatever the mesh's unit.

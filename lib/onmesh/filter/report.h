@@ -21,6 +21,9 @@ struct FilterPlan {
   double bridge = 0;                  ///< 0 = none
   double surface_area = 0;  ///< square mesh units, of all faces that are left once it is clean
 
+  std::uint64_t joined_edges = 0;  ///< pairs of boundary edges that differ by rounding only
+  std::uint64_t t_junctions = 0;   ///< boundary edges split at vertices on them
+  std::uint64_t near_edges = 0;    ///< boundary edges within a texel of others, yet apart
   std::uint64_t texels = 0;        ///< targets, each claim of a texel counted
   std::uint64_t overlapped = 0;    ///< texels claimed more than once
   std::uint64_t nodes = 0;         ///< estimate
@@ -62,7 +65,10 @@ struct FilterReport {
   /// used.
   double taps = 0;
   std::uint64_t table_rows = 0;      ///< nodes that distances were computed from, all patches
-  std::uint64_t bridges = 0;         ///< over gaps between components
+  std::uint64_t bridges = 0;         ///< over gaps
+  std::uint64_t joined_edges = 0;    ///< as in FilterPlan
+  std::uint64_t t_junctions = 0;     ///< the same
+  std::uint64_t near_edges = 0;      ///< the same
   std::uint64_t overlapped = 0;      ///< texels claimed more than once
   std::uint64_t gutter = 0;          ///< texels filled around the charts
   std::uint64_t without_sample = 0;  ///< targets that kept their values

@@ -110,6 +110,9 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const SurfaceTextures& textu
 
   FilterPlan& plan = setup.mesh_plan;
   plan = in_mesh_units(setup.lengths, setup.unit);
+  plan.joined_edges = setup.joining.joined_edges;
+  plan.t_junctions = setup.joining.t_junctions;
+  plan.near_edges = setup.near.edges;
   plan.texels = texels;
   plan.overlapped = setup.overlap.texels().size();
   plan.samples = samples;

@@ -7,6 +7,7 @@
 
 #include "onmesh/atlas/charts.h"
 #include "onmesh/atlas/face_textures.h"
+#include "onmesh/atlas/running_back.h"
 #include "onmesh/atlas/uv_overlap.h"
 #include "onmesh/base/disjoint_sets.h"
 #include "onmesh/base/text.h"
@@ -153,8 +154,12 @@ void advise_on_faces(const MeshReport& r, Lines& lines) {
       " no UVs: they are part of the surface but carry no texture");
   add(r.degenerate_uvs, "face has", "faces have",
       " UVs without area, which give it no texels: unwrap them again if they should be filtered");
+  add(r.running_back, "face runs", "faces run",
+      " back over the whole texture, like the last column of a closed wrap whose vertices at the "
+      "seam have the UVs of its start only: give them UVs of their own at its end");
   const bool all_mirrored = r.mirrored_faces + r.degenerate_uvs >= textured;
-  add(all_mirrored ? 0 : r.mirrored_faces, "face has", "faces have",
+  const Index mirrored = r.mirrored_faces - std::min(r.mirrored_faces, r.running_back);
+  add(all_mirrored ? 0 : mirrored, "face has", "faces have",
       " mirrored UVs: harmless for filtering, but check that texts and normal maps are meant to be "
       "so");
 }
@@ -205,6 +210,7 @@ MeshReport report_mesh(const TriangleMesh& mesh) {
   for (const Index count : count_fans(mesh, fans)) r.nonmanifold_vertices += count > 1;
   r.orientable = consistent_winding(mesh, edges).conflict == kNone;
   measure_uvs(mesh, r);
+  r.running_back = count_running_back(mesh, r.chart_of_face);
   const UvOverlap overlap = estimate_overlap(mesh);
   r.overlap_share = overlap.share;
   r.max_overlap = overlap.deepest;

@@ -24,6 +24,7 @@ struct MeshReport {
   Index faces_without_uvs = 0;     ///< some corner has no UV
   Index degenerate_uvs = 0;        ///< UVs present, but the UV triangle has no area
   Index mirrored_faces = 0;        ///< UV triangle runs clockwise
+  Index running_back = 0;          ///< faces among them that run back over the whole chart
   /// Faces connected over edges with equal UVs on all sides, as make_texel_map() counts them for
   /// each texture: parts without area or UV area, which hold no texels, do not count.
   Index charts = 0;

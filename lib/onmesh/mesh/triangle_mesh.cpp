@@ -150,6 +150,7 @@ TriangleMesh weld(const TriangleMesh& mesh) {
 TriangleMesh loosen(const TriangleMesh& mesh) {
   TriangleMesh result;
   result.materials = mesh.materials;
+  result.precision = mesh.precision;
   result.face_materials = mesh.face_materials;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     std::array<Index, 3> corners{}, uvs{};
@@ -191,6 +192,7 @@ TriangleMesh extract_faces(const TriangleMesh& mesh, const std::vector<bool>& ke
   result.positions = mesh.positions;
   result.uvs = mesh.uvs;
   result.materials = mesh.materials;
+  result.precision = mesh.precision;
   for (Index f = 0; f < keep.size(); ++f) {
     if (!keep[f]) continue;
     result.faces.push_back(mesh.faces[f]);

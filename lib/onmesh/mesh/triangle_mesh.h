@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "onmesh/mesh/coordinate_precision.h"
 #include "onmesh/mesh/surface_point.h"
 
 namespace onmesh {
@@ -23,6 +24,7 @@ struct TriangleMesh {
   std::vector<std::array<Index, 3>> face_uvs;  ///< into uvs, one per face; kNone = no UV there
   std::vector<Index> face_materials;           ///< into materials, one per face; kNone = none
   std::vector<Material> materials;             ///< in the order of the file
+  CoordinatePrecision precision;               ///< of the positions as they were stored
 
   /// All three corners of the face have a UV.
   bool has_uvs(Index face) const {

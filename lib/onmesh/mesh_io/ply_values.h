@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -11,6 +12,7 @@
 #include "onmesh/base/error.h"
 #include "onmesh/base/text_scan.h"
 #include "onmesh/mesh_io/ply_header.h"
+#include "onmesh/mesh_io/printed_precision.h"
 
 namespace onmesh {
 
@@ -25,11 +27,17 @@ class PlyTextValues {
 
   /// The next value, of any type.
   /// \throw InputError naming file and line if there is none or it is no number
-  double next(PlyType) {
-    const std::string_view token = scan_.token_anywhere();
-    if (token.empty()) scan_.fail("file ends before all its elements");
-    return scan_.number(token, "value");
+  double next(PlyType) { return scan_.number(token(), "value"); }
+
+  /// The next value, which is a coordinate: precision() looks at it.
+  double next_coordinate(PlyType) {
+    const std::string_view text = token();
+    const double value = scan_.number(text, "value");
+    if (std::isfinite(value)) printed_.add(text, value);
+    return value;
   }
+  /// Of the coordinates so far.
+  CoordinatePrecision precision() const { return printed_.result(); }
 
   /// Whether `count` elements may be left in the file, of so many values and, if binary, at least
   /// so many bytes each: a value takes a character and a blank at least.
@@ -41,7 +49,14 @@ class PlyTextValues {
   [[noreturn]] void fail(const std::string& what) const { scan_.fail(what); }
 
  private:
+  std::string_view token() {
+    const std::string_view token = scan_.token_anywhere();
+    if (token.empty()) scan_.fail("file ends before all its elements");
+    return token;
+  }
+
   TextScan scan_;
+  PrintedPrecision printed_;
 };
 
 /// Values of a binary body.
@@ -78,6 +93,15 @@ class PlyBinaryValues {
     return read<double>();
   }
 
+  /// The next value, which is a coordinate: precision() looks at it.
+  double next_coordinate(PlyType type) {
+    precision_.single |= type == PlyType::f32;
+    precision_.printed |= type < PlyType::f32;  // whole numbers
+    return next(type);
+  }
+  /// Of the coordinates so far.
+  CoordinatePrecision precision() const { return precision_; }
+
   /// Whether `count` elements may be left in the file, of at least so many bytes each.
   bool can_hold(std::uint64_t count, std::size_t /*values*/, std::size_t bytes) const {
     return bytes == 0 || count <= static_cast<std::size_t>(end_ - at_) / bytes;
@@ -95,6 +119,7 @@ class PlyBinaryValues {
     return value;
   }
 
+  CoordinatePrecision precision_;
   const char* at_;
   const char* end_;
   std::endian order_;

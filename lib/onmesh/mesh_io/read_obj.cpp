@@ -12,6 +12,7 @@
 #include "onmesh/base/text_scan.h"
 #include "onmesh/mesh_io/find_texture.h"
 #include "onmesh/mesh_io/polygon_mesh.h"
+#include "onmesh/mesh_io/printed_precision.h"
 #include "onmesh/mesh_io/read_mtl.h"
 
 namespace onmesh {
@@ -55,6 +56,7 @@ class ObjReader {
     check_forward_references();
     read_libraries();
     drop_missing_uvs(out_, path_.string(), warnings_);
+    out_.mesh.precision = precision_.result();
     return triangulate(std::move(out_), path_.string());
   }
 
@@ -65,7 +67,7 @@ class ObjReader {
 
   void read_position() {
     Vec3 p;
-    for (int i = 0; i < 3; ++i) p[i] = scan_.finite("coordinate");
+    for (int i = 0; i < 3; ++i) p[i] = finite_coordinate(scan_, precision_);
     // A weight and vertex colours may follow.
     while (scan_.skip_blank()) scan_.number("value behind the coordinates");
     out_.mesh.positions.push_back(p);
@@ -189,6 +191,7 @@ class ObjReader {
   TextScan scan_;
   std::vector<std::string>* warnings_;
   PolygonMesh out_;
+  PrintedPrecision precision_;
   std::vector<Forward> forward_;
   std::vector<std::string> libraries_;
   std::unordered_map<std::string, Index> material_by_name_;

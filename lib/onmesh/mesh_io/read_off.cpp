@@ -7,6 +7,7 @@
 
 #include "onmesh/base/text_scan.h"
 #include "onmesh/mesh_io/polygon_mesh.h"
+#include "onmesh/mesh_io/printed_precision.h"
 
 namespace onmesh {
 namespace {
@@ -64,10 +65,11 @@ OffHeader read_header(TextScan& scan) {
 void read_vertices(TextScan& scan, const OffHeader& header, PolygonMesh& out) {
   out.mesh.positions.reserve(header.vertices);
   std::vector<double> rest;
+  PrintedPrecision precision;
   for (std::size_t i = 0; i < header.vertices; ++i, scan.next_line()) {
     next_filled_line(scan);
     Vec3 p;
-    for (int k = 0; k < 3; ++k) p[k] = scan.finite("coordinate");
+    for (int k = 0; k < 3; ++k) p[k] = finite_coordinate(scan, precision);
     out.mesh.positions.push_back(p);
     if (!header.has_uvs) continue;
     // Colours between the normal and the texture coordinates may have any number of components.
@@ -77,6 +79,7 @@ void read_vertices(TextScan& scan, const OffHeader& header, PolygonMesh& out) {
       scan.fail("vertex has no texture coordinates");
     out.mesh.uvs.emplace_back(rest[rest.size() - 2], rest.back());
   }
+  out.mesh.precision = precision.result();
 }
 
 void read_faces(TextScan& scan, const OffHeader& header, PolygonMesh& out) {

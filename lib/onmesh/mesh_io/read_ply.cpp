@@ -113,7 +113,8 @@ class PlyReader {
         if (slots[k] == kUnwanted) {
           skip(element.properties[k]);
         } else {
-          v[slots[k]] = values_.next(element.properties[k].type);
+          const PlyType type = element.properties[k].type;
+          v[slots[k]] = slots[k] <= kZ ? values_.next_coordinate(type) : values_.next(type);
         }
       }
       const Vec3 p(v[kX], v[kY], v[kZ]);
@@ -122,6 +123,7 @@ class PlyReader {
       out_.mesh.positions.push_back(p);
       if (vertex_uvs_) out_.mesh.uvs.emplace_back(v[kU], v[kV]);
     }
+    out_.mesh.precision = values_.precision();
   }
 
   void read_faces(const PlyElement& element) {

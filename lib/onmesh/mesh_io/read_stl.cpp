@@ -10,6 +10,7 @@
 #include "onmesh/base/error.h"
 #include "onmesh/base/text_scan.h"
 #include "onmesh/mesh_io/polygon_mesh.h"
+#include "onmesh/mesh_io/printed_precision.h"
 
 namespace onmesh {
 namespace {
@@ -41,6 +42,7 @@ void add_facet(PolygonMesh& out, const std::array<Vec3, 3>& corners) {
 
 void read_text(const std::string& content, const std::string& file, PolygonMesh& out) {
   TextScan scan(content, file, Syntax::plain);
+  PrintedPrecision precision;
   const auto expect = [&](std::string_view word) {
     const std::string_view token = scan.token_anywhere();
     if (token.empty()) scan.fail("file ends where '" + std::string(word) + "' should follow");
@@ -62,7 +64,7 @@ void read_text(const std::string& content, const std::string& file, PolygonMesh&
       std::array<Vec3, 3> corners;
       for (Vec3& p : corners) {
         expect("vertex");
-        for (int k = 0; k < 3; ++k) p[k] = scan.finite("coordinate");
+        for (int k = 0; k < 3; ++k) p[k] = finite_coordinate(scan, precision);
       }
       expect("endloop");
       expect("endfacet");
@@ -70,8 +72,9 @@ void read_text(const std::string& content, const std::string& file, PolygonMesh&
     }
     scan.next_line();
     while (!scan.at_end() && !scan.skip_blank()) scan.next_line();
-    if (scan.at_end()) return;
+    if (scan.at_end()) break;
   }
+  out.mesh.precision = precision.result();
 }
 
 void read_binary(const std::string& content, const std::string& file, PolygonMesh& out,
@@ -87,6 +90,7 @@ void read_binary(const std::string& content, const std::string& file, PolygonMes
     warnings->push_back(file + ": bytes behind the last facet are ignored");
   }
   if (facets > kNone / 3) throw InputError(file + ": has more vertices than 32 bits can count");
+  out.mesh.precision.single = true;
   out.mesh.positions.reserve(3 * facets);
   for (std::size_t i = 0; i < facets; ++i) {
     // 12 bytes of normal come first.

@@ -3,9 +3,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 #include "onmesh/mesh/closest_point.h"
 #include "onmesh/mesh/components.h"
+#include "onmesh/mesh/gap_search.h"
 
 namespace onmesh {
 namespace {
@@ -32,28 +35,78 @@ std::vector<bool> find_close(const std::vector<Eigen::AlignedBox3d>& boxes, doub
   return close;
 }
 
+/// Nodes on boundaries, and what lies across gaps from there.
+class BoundaryNodes {
+ public:
+  BoundaryNodes(const TriangleMesh& mesh, const GapSearch& gaps) : mesh_(mesh), gaps_(gaps) {}
+
+  /// The closest point of a boundary across a gap from the node, if it lies on one itself.
+  /// \param number of the node: vertices of the mesh come first
+  std::optional<SurfacePoint> across(Index number, const SurfacePoint& node, double width) const {
+    std::optional<BoundaryPoint> best;
+    double least = std::numeric_limits<double>::infinity();
+    const Vec3 here = mesh_.position(node);
+    for (const BoundaryPoint& from : places(number, node)) {
+      const auto there = gaps_.across(from, width);
+      if (!there) continue;
+      const double d2 = (gaps_.position(*there) - here).squaredNorm();
+      if (d2 >= least) continue;
+      least = d2;
+      best = there;
+    }
+    return best ? std::optional(gaps_.surface_point(*best)) : std::nullopt;
+  }
+
+ private:
+  std::vector<BoundaryPoint> places(Index number, const SurfacePoint& node) const {
+    std::vector<BoundaryPoint> places;
+    if (number < mesh_.positions.size()) {
+      for (const Index e : gaps_.at_vertex(number))
+        places.push_back({e, gaps_.edges()[e].ends[0] == number ? 0.0 : 1.0});
+      return places;
+    }
+    for (Index k = 0; k < 3; ++k) {
+      const Index e = gaps_.edge_of(node.face, k);
+      constexpr double kOnEdge = 1e-9;
+      if (e == kNone || node.barycentric[(k + 2) % 3] > kOnEdge) continue;
+      places.push_back({e, node.barycentric[(k + 1) % 3]});
+    }
+    return places;
+  }
+
+  const TriangleMesh& mesh_;
+  const GapSearch& gaps_;
+};
+
 }  // namespace
 
 Index add_bridges(const TriangleMesh& mesh, double width, NodeSurface& surface) {
   NodeMesh& nodes = surface.nodes;
   const FaceComponents components = connected_components(mesh);
   const std::vector<Index>& component = components.of_face;
-  if (components.count < 2) return 0;
   std::vector<Eigen::AlignedBox3d> boxes(components.count);
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     for (const Vec3& p : mesh.corners(f)) boxes[component[f]].extend(p);
   }
   const std::vector<bool> close = find_close(boxes, width);
-  if (std::find(close.begin(), close.end(), true) == close.end()) return 0;
+  const bool any_close = std::find(close.begin(), close.end(), true) != close.end();
+  const GapSearch gaps(mesh);
+  if (!any_close && gaps.edges().empty()) return 0;
 
   // For every node the node face across the gap.
-  const ClosestPoint closest_point(mesh);
+  std::optional<ClosestPoint> closest_point;
+  if (any_close) closest_point.emplace(mesh);
+  const BoundaryNodes boundary(mesh, gaps);
   std::vector<Index> across(nodes.nodes.size(), kNone);
   tbb::parallel_for(std::size_t{0}, across.size(), [&](std::size_t n) {
     const SurfacePoint& node = nodes.nodes[n];
-    if (node.face == kNone || !close[component[node.face]]) return;
-    const auto nearest =
-        closest_point.closest_other(mesh.position(node), width, component, component[node.face]);
+    if (node.face == kNone) return;
+    std::optional<SurfacePoint> nearest;
+    if (close[component[node.face]]) {
+      nearest =
+          closest_point->closest_other(mesh.position(node), width, component, component[node.face]);
+    }
+    if (!nearest) nearest = boundary.across(Index(n), node, width);
     if (nearest) across[n] = surface.overlay.locate(*nearest).face;
   });
 

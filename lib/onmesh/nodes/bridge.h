@@ -1,4 +1,4 @@
-// Bridges over the gaps between components.
+// Bridges over gaps of the surface.
 #pragma once
 
 #include "onmesh/mesh/triangle_mesh.h"
@@ -18,12 +18,16 @@ namespace onmesh {
 /// another one. (Crossing bridges otherwise, from one bridge into the next, would lead around
 /// closed fans of them, which lie on each other.)
 ///
+/// Between boundaries of one component, nodes on a boundary are joined to the closest boundary
+/// across a gap (see GapSearch) in the same way: a slit is bridged, the other leaf of a folded
+/// sheet is not.
+///
 /// The gap is looked at from the nodes of both sides: surfaces that come close only between their
 /// nodes stay apart. Deterministic. Parts that touch or overlap are joined, too, and so are the
 /// sheets that clean() separates.
 /// \param width of the widest gap that is bridged, mesh units, > 0
 /// \pre surface was refined from mesh with RefineOptions::flat_faces
-/// \return number of bridges, that is of nodes joined to another component
+/// \return number of bridges, that is of nodes joined to what lies across a gap
 Index add_bridges(const TriangleMesh& mesh, double width, NodeSurface& surface);
 
 }  // namespace onmesh
