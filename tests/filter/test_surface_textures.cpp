@@ -235,8 +235,9 @@ TEST_CASE("tiles are named where something is odd about them", "[tiles]") {
       "need the same channels");
   CHECK_THROWS_WITH(plan(rgb, {0, 1}), Catch::Contains("tile_of_face"));
   const std::vector<std::string> warnings = plan(coarse, halves(mesh)).warnings;
-  REQUIRE(warnings.size() == 1);
+  REQUIRE(warnings.size() == 2);
   CHECK(warnings[0].find("b.png: its texels are 0.125 wide") == 0);
+  CHECK(warnings[1].find("b.png: is hardly filtered, its texels are 0.125 wide") == 0);
   // A face of the first tile that reaches into the second.
   std::vector<Index> tiles = halves(mesh);
   const auto first = std::find(tiles.begin(), tiles.end(), Index(1));

@@ -87,6 +87,19 @@ std::uint64_t plan_nodes(const PreparedMesh& prepared, const RefineOptions& refi
   return whole_number(nodes);
 }
 
+/// Texels of one of several tiles that are wider than sigma hardly have neighbours that count.
+void warn_of_wide_texels(const FilterSetup& setup, const SurfaceTextures& textures,
+                         std::vector<std::string>& warnings) {
+  const TexelMap& map = setup.map;
+  for (Index i = 0; map.tiles.size() > 1 && i < map.tiles.size(); ++i) {
+    const double texel = map.median_texel_size(i);
+    if (texel <= setup.lengths.sigma_spatial) continue;
+    warnings.push_back(textures.tiles[i].name + ": is hardly filtered, its texels are " +
+                       number_text(texel * setup.unit) + " wide and sigma_spatial is " +
+                       number_text(setup.lengths.sigma_spatial * setup.unit));
+  }
+}
+
 }  // namespace
 
 FilterSetup set_up_filter(const TriangleMesh& mesh, const SurfaceTextures& textures,
@@ -101,6 +114,7 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const SurfaceTextures& textu
   const bool poisson = options.samples == SampleKind::poisson;
   setup.graded = poisson && !options.spacing && !options.r_coef;
   setup.lengths = plan_lengths(setup, options);
+  warn_of_wide_texels(setup, textures, setup.warnings);
   const std::uint64_t texels = setup.map.claims.size();
   const std::uint64_t samples = poisson ? plan_poisson(setup, options, setup.lengths) : texels;
   setup.refinement = refinement_for(setup, setup.lengths);
