@@ -25,7 +25,7 @@ struct TextureTile {
 /// All of them, each with its own size and wrap mode. They are one map: colour flows from one into
 /// the other where their faces meet.
 struct SurfaceTextures {
-  std::vector<TextureTile> tiles;
+  std::vector<TextureTile> tiles;  ///< at least one, with the same channels
   /// Per face of the mesh as given, into tiles; kNone = the face carries no texels. Empty = the
   /// first tile for all faces with UVs.
   std::vector<Index> tile_of_face;

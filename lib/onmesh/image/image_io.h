@@ -41,8 +41,8 @@ void write_image(const std::filesystem::path& path, const Image& image,
 
 /// An image and where it goes.
 struct ImageFile {
-  std::filesystem::path path;
-  const Image* image = nullptr;
+  std::filesystem::path path;    ///< as write_image() takes it
+  const Image* image = nullptr;  ///< outlives the call
 };
 
 /// Write several images, each as write_image() does, or none: all of them are complete and read
