@@ -23,7 +23,6 @@ struct Atlas {
   std::vector<Image> images;     ///< per texture; empty if a resolution was given
   std::vector<TexelTile> tiles;  ///< per texture
   TriangleMesh mesh;             ///< the mesh with UVs of each face's own tile
-  std::vector<std::string> warnings;
 
   std::vector<const Image*> image_pointers() const;
   /// Of the whole atlas, empty or not.

@@ -3,7 +3,9 @@
 #include <string>
 
 #include "command.h"
+
 namespace onmesh::tools {
+
 Wrap wrap_of(const Arguments& arguments) {
   return arguments.choice<Wrap>("wrap", {{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}});
 }

@@ -72,3 +72,44 @@ TEST_CASE("what killed runs left behind is in nobody's way", "[atomic_file]") {
   CHECK(read_file(folder.path() / "a.txt") == "19");
   CHECK(files_in(folder) == 3);
 }
+
+TEST_CASE("several files take their targets' places together or not at all", "[atomic_file]") {
+  const TempFolder folder;
+  const fs::path old = folder.file("old.txt", "before"), fresh = folder.path() / "fresh.txt",
+                 last = folder.path() / "last.txt";
+  const auto written = [&] {
+    std::vector<std::unique_ptr<AtomicFile>> files;
+    for (const fs::path& path : {old, fresh, last}) {
+      files.push_back(std::make_unique<AtomicFile>(path));
+      write_file(files.back()->temporary(), "after");
+    }
+    return files;
+  };
+  {
+    const auto files = written();
+    fs::create_directory(last);  // in the way of the last one only
+    CHECK_THROWS_AS(commit_all(files), FileError);
+    CHECK(read_file(old) == "before");
+    CHECK_FALSE(fs::exists(fresh));
+  }
+  fs::remove(last);
+  CHECK(files_in(folder) == 1);
+  commit_all(written());
+  for (const fs::path& path : {old, fresh, last}) CHECK(read_file(path) == "after");
+  CHECK(files_in(folder) == 3);
+}
+
+TEST_CASE("a folder for a run's files goes again unless it is kept", "[atomic_file]") {
+  const TempFolder folder;
+  const fs::path made = folder.path() / "made";
+  { const AtomicFolder given_up(made); }
+  CHECK_FALSE(fs::exists(made));
+  {
+    AtomicFolder kept(made);
+    kept.keep();
+  }
+  CHECK(fs::is_directory(made));
+  { const AtomicFolder there(made); }
+  CHECK(fs::is_directory(made));
+  CHECK_THROWS_AS(AtomicFolder(folder.path() / "no" / "such"), FileError);
+}

@@ -100,12 +100,22 @@ void AtomicFile::replace() {
   temporary_.clear();
 }
 
-/// Undo replace(), as far as that is possible.
-void AtomicFile::put_back() {
-  if (before_.empty()) {
-    ::unlink(target_.c_str());
+/// Keep a second name of the target. Where file systems have none, the target cannot be put back.
+void AtomicFile::remember() {
+  const std::filesystem::path name = temporary_.string() + ".before";
+  if (::link(target_.c_str(), name.c_str()) == 0) {
+    before_ = name;
   } else {
+    was_there_ = errno != ENOENT;
+  }
+}
+
+/// Undo replace(). What cannot be put back stays the new file: better than none.
+void AtomicFile::put_back() {
+  if (!before_.empty()) {
     ::rename(before_.c_str(), target_.c_str());
+  } else if (!was_there_) {
+    ::unlink(target_.c_str());
   }
 }
 
@@ -117,9 +127,8 @@ void AtomicFile::commit() {
 void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files) {
   const std::lock_guard lock(temporaries().mutex);
   // A single file needs no way back.
-  for (std::size_t i = 0; files.size() > 1 && i < files.size(); ++i) {
-    const fs::path name = files[i]->temporary_.string() + ".before";
-    if (::link(files[i]->target_.c_str(), name.c_str()) == 0) files[i]->before_ = name;
+  if (files.size() > 1) {
+    for (const auto& file : files) file->remember();
   }
   std::size_t done = 0;
   const auto forget = [&] {

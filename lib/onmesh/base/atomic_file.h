@@ -35,10 +35,12 @@ class AtomicFile {
  private:
   friend void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files);
   void replace();
+  void remember();
   void put_back();
 
   const std::filesystem::path path_, target_;
   std::filesystem::path before_;  ///< a second name of what the target was; empty = none
+  bool was_there_ = false;        ///< there was a target, but a second name could not be had
   std::filesystem::path temporary_;
 };
 
