@@ -32,12 +32,7 @@ function(onmesh_folder name)
   if(arg_SOURCES)
     onmesh_objects(onmesh_${name} ${arg_SOURCES})
     target_link_libraries(onmesh_${name} PRIVATE ${arg_DEPENDS})
-    # One for all, of `mesh`: for `base` more is defined on the command line, which would not fit.
-    if(name STREQUAL mesh)
-      target_precompile_headers(onmesh_mesh PRIVATE ${onmesh_common_headers})
-    elseif(NOT name STREQUAL base)
-      target_precompile_headers(onmesh_${name} REUSE_FROM onmesh_mesh)
-    endif()
+    target_precompile_headers(onmesh_${name} REUSE_FROM onmesh_precompiled)
   endif()
   if(arg_CGAL)
     onmesh_objects(onmesh_${name}_cgal ${arg_CGAL})
@@ -49,6 +44,14 @@ function(onmesh_folder name)
   list(TRANSFORM arg_PUBLIC_HEADERS PREPEND ${PROJECT_SOURCE_DIR}/lib/)
   target_sources(onmesh PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/lib
     FILES ${arg_PUBLIC_HEADERS})
+endfunction()
+
+# The headers of the standard library and Eigen, precompiled once for all folders, in a target without
+# DEPENDS: what these define on the command line would have to be defined wherever they are reused.
+function(onmesh_precompile_headers)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "")
+  onmesh_objects(onmesh_precompiled ${PROJECT_BINARY_DIR}/precompiled.cpp)
+  target_precompile_headers(onmesh_precompiled PRIVATE ${onmesh_common_headers})
 endfunction()
 
 # Objects of the library. Position-independent, so that shared libraries and language modules can

@@ -15,7 +15,7 @@ namespace {
 constexpr double kTie = 1e-9;  // squared pixels
 
 /// An edge that bounds a chart, in pixels.
-struct BoundaryEdge {
+struct OuterEdge {
   Index face, chart;
   int edge;
   Vec2 from, to;
@@ -23,15 +23,14 @@ struct BoundaryEdge {
 };
 
 /// Per tile, in the order of faces.
-std::vector<std::vector<BoundaryEdge>> boundary_edges(const TriangleMesh& mesh,
-                                                      const TexelMap& map) {
+std::vector<std::vector<OuterEdge>> outer_edges(const TriangleMesh& mesh, const TexelMap& map) {
   std::vector<bool> used(mesh.faces.size());
   for (Index f = 0; f < used.size(); ++f) used[f] = map.chart_of_face[f] != kNone;
   const UvNeighbours neighbours(mesh, used);
   std::vector<double> tolerances;
   for (const TexelTile& tile : map.tiles)
     tolerances.push_back(pixel_tolerance(mesh, used, tile.width, tile.height));
-  std::vector<std::vector<BoundaryEdge>> edges(map.tiles.size());
+  std::vector<std::vector<OuterEdge>> edges(map.tiles.size());
   for (Index f = 0; f < used.size(); ++f) {
     if (!used[f]) continue;
     const TexelTile& tile = map.tile_of(f);
@@ -51,7 +50,7 @@ std::vector<std::vector<BoundaryEdge>> boundary_edges(const TriangleMesh& mesh,
 }
 
 /// Columns whose centres can lie within `reach` of the edge in this row: [first, second].
-std::pair<double, double> columns_near(const BoundaryEdge& e, double row_centre, double reach) {
+std::pair<double, double> columns_near(const OuterEdge& e, double row_centre, double reach) {
   const Vec2 d = e.to - e.from;
   double t0 = 0, t1 = 1;
   if (d.y() != 0) {
@@ -73,7 +72,7 @@ struct EdgeInRow {
 /// Boundary edges of a tile by its rows in which centres may be within reach of them.
 class EdgeRows {
  public:
-  EdgeRows(const std::vector<BoundaryEdge>& edges, const TexelTile& tile, double reach)
+  EdgeRows(const std::vector<OuterEdge>& edges, const TexelTile& tile, double reach)
       : offsets_(std::size_t(tile.height) + 1, 0) {
     // Counted first, then filled in.
     visit(edges, tile, reach, [&](std::size_t row, const EdgeInRow&) { ++offsets_[row + 1]; });
@@ -91,7 +90,7 @@ class EdgeRows {
 
  private:
   template <class Visit>
-  static void visit(const std::vector<BoundaryEdge>& edges, const TexelTile& tile, double reach,
+  static void visit(const std::vector<OuterEdge>& edges, const TexelTile& tile, double reach,
                     const Visit& visit) {
     const int height = tile.height;
     for (Index e = 0; e < edges.size(); ++e) {
@@ -129,7 +128,7 @@ class RowSearch {
 
   /// Compare the edge with all texels that it may be within reach of, one run of columns per tile.
   /// \param row before wrapping
-  void offer(const BoundaryEdge& e, std::int32_t row, double reach) {
+  void offer(const OuterEdge& e, std::int32_t row, double reach) {
     const std::int64_t width = tile_.width;
     auto [low, high] = columns_near(e, row + 0.5, reach);
     if (tile_.wrap == Wrap::clamp) {
@@ -151,7 +150,7 @@ class RowSearch {
 
  private:
   /// \param i of the row's gutter texels, seen at `at`
-  void consider(std::size_t i, const BoundaryEdge& e, const TexelClaim& at) {
+  void consider(std::size_t i, const OuterEdge& e, const TexelClaim& at) {
     NearestEdge& best = nearest_[i];
     const Vec2 centre{at.x + 0.5, at.y + 0.5};
     double position = 0;
@@ -250,7 +249,7 @@ std::vector<NearestEdge> nearest_edges(const TriangleMesh& mesh, const TexelMap&
                                        const std::vector<Index>& gutter) {
   // A touched texel's centre lies within half a diagonal of its chart, every ring adds a diagonal.
   const double reach = std::sqrt(0.5) * (1 + 2 * rings) + 1e-6;
-  const std::vector<std::vector<BoundaryEdge>> edges = boundary_edges(mesh, map);
+  const std::vector<std::vector<OuterEdge>> edges = outer_edges(mesh, map);
   std::vector<NearestEdge> nearest(gutter.size());
   for (std::size_t i = 0; i < map.tiles.size(); ++i) {
     const TexelTile& tile = map.tiles[i];
