@@ -101,25 +101,44 @@ std::vector<Index> charts_of_faces(const TriangleMesh& mesh) {
   return chart;
 }
 
-/// The part of a triangle that lies in a texel's square, by cutting along the square's four lines.
-double area_in_square(const UvFace& face, int x, int y) {
-  std::vector<Vec2> polygon(face.corners.begin(), face.corners.end());
-  for (int side = 0; side < 4; ++side) {
-    const int axis = side / 2;
-    const double line = (axis == 0 ? x : y) + side % 2, sign = side % 2 == 0 ? 1 : -1;
-    std::vector<Vec2> kept;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-      const double da = sign * (a[axis] - line), db = sign * (b[axis] - line);
-      if (da >= 0) kept.push_back(a);
-      if (da * db < 0) kept.push_back(a + da / (da - db) * (b - a));
-    }
-    polygon = kept;
+using Polygon = std::vector<Vec2>;
+
+/// The side of the line a x + b y + c = 0 where that is positive.
+Polygon cut(const Polygon& polygon, double a, double b, double c) {
+  const auto value = [&](const Vec2& p) { return a * p.x() + b * p.y() + c; };
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const double vp = value(p), vq = value(q);
+    if (vp >= 0) kept.push_back(p);
+    if (vp * vq < 0) kept.push_back(p + vp / (vp - vq) * (q - p));
   }
+  return kept;
+}
+
+double area_of(const Polygon& polygon) {
   double twice = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i)
     twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
   return std::abs(twice) / 2;
+}
+
+/// The part of a triangle that lies in a texel's square, in texels from the square's corner.
+Polygon part_in_square(const UvFace& face, int x, int y) {
+  Polygon part;
+  for (const Vec2& corner : face.corners) part.push_back(corner - Vec2(x, y));
+  part = cut(cut(part, 1, 0, 0), -1, 0, 1);
+  return cut(cut(part, 0, 1, 0), 0, -1, 1);
+}
+
+/// The part of a polygon that lies in a triangle.
+Polygon part_in_triangle(Polygon polygon, const Polygon& triangle) {
+  const double sign = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]) > 0 ? 1 : -1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2 from = triangle[k], along = sign * (triangle[(k + 1) % 3] - from);
+    polygon = cut(polygon, -along.y(), along.x(), -cross(along, from));
+  }
+  return polygon;
 }
 
 /// A texel on a face. Row and column are unwrapped.
@@ -147,6 +166,7 @@ class Rasteriser {
   TexelPoints run() {
     claim_centres();
     claim_for_empty_charts();
+    settle_between_charts();
     std::sort(claims_.begin(), claims_.end(), [](const Claim& a, const Claim& b) {
       return std::tie(a.face, a.y, a.x) < std::tie(b.face, b.y, b.x);
     });
@@ -154,7 +174,7 @@ class Rasteriser {
     for (const Claim& claim : claims_) {
       out.points.push_back({claim.face, claim.barycentric});
       out.positions.push_back(mesh_.position(out.points.back()));
-      out.texels.push_back(Index(wrapped(claim.y, height_) * width_ + wrapped(claim.x, width_)));
+      out.texels.push_back(texel_of(claim.x, claim.y));
       out.areas.push_back(faces_[claim.face].texel_area);
       out.charts.push_back(charts_[claim.face]);
     }
@@ -227,7 +247,7 @@ class Rasteriser {
     std::map<std::pair<int, int>, double> overlaps;
     for (const Index f : faces) {
       for_squares(faces_[f], [&](int x, int y) {
-        overlaps[{y, x}] += area_in_square(faces_[f], x, y);
+        overlaps[{y, x}] += area_of(part_in_square(faces_[f], x, y));
       });
     }
     if (overlaps.empty()) return;
@@ -247,6 +267,95 @@ class Rasteriser {
       claim.barycentric = closest;
     }
     claims_.push_back(claim);
+  }
+
+  Index texel_of(int x, int y) const {
+    return Index(wrapped(y, height_) * width_ + wrapped(x, width_));
+  }
+
+  /// Where charts only touch, the one that covers most of a texel has it alone.
+  void settle_between_charts() {
+    std::map<Index, std::vector<Claim>> by_texel;
+    for (const Claim& claim : claims_) by_texel[texel_of(claim.x, claim.y)].push_back(claim);
+    claims_.clear();
+    for (auto& [texel, sharing] : by_texel) {
+      std::sort(sharing.begin(), sharing.end(),
+                [](const Claim& a, const Claim& b) { return a.face < b.face; });
+      if (sharing.size() > 16 || !only_touch(sharing, by_texel)) {
+        claims_.insert(claims_.end(), sharing.begin(), sharing.end());
+        continue;
+      }
+      const Claim* most = sharing.data();
+      for (const Claim& claim : sharing)
+        if (area_in(claim) > area_in(*most) + 1e-9) most = &claim;
+      claims_.push_back(*most);
+    }
+  }
+
+  bool only_touch(const std::vector<Claim>& sharing,
+                  const std::map<Index, std::vector<Claim>>& by_texel) const {
+    for (std::size_t i = 0; i < sharing.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (charts_[sharing[i].face] == charts_[sharing[j].face] ||
+            common_block(sharing[i], sharing[j], by_texel) ||
+            common_area(sharing[i], sharing[j]) >= 0.5 - 1e-9)
+          return false;
+      }
+    }
+    return true;
+  }
+
+  /// Whether both charts have two by two texels that are the claims' or next to it.
+  bool common_block(const Claim& a, const Claim& b,
+                    const std::map<Index, std::vector<Claim>>& by_texel) const {
+    const auto has = [&](int x, int y, Index chart) {
+      if (!repeat_ && (x < 0 || x >= width_ || y < 0 || y >= height_)) return false;
+      const auto at = by_texel.find(texel_of(x, y));
+      return at != by_texel.end() &&
+             std::any_of(at->second.begin(), at->second.end(),
+                         [&](const Claim& c) { return charts_[c.face] == chart; });
+    };
+    for (int left = a.x - 2; left <= a.x + 1; ++left) {
+      for (int top = a.y - 2; top <= a.y + 1; ++top) {
+        int common = 0;
+        for (int i = 0; i < 4; ++i) {
+          const int x = left + i % 2, y = top + i / 2;
+          common += has(x, y, charts_[a.face]) && has(x, y, charts_[b.face]);
+        }
+        if (common == 4) return true;
+      }
+    }
+    return false;
+  }
+
+  /// The faces of the claim's chart that may meet its texel.
+  std::vector<Index> faces_around(const Claim& claim) const {
+    std::vector<Index> around;
+    for (Index f = 0; f < faces_.size(); ++f) {
+      const UvFace& face = faces_[f];
+      if (charts_[f] == charts_[claim.face] && face.texel_area > 0 && face.left <= claim.x &&
+          claim.x <= face.right && face.top <= claim.y && claim.y <= face.bottom)
+        around.push_back(f);
+    }
+    return around;
+  }
+
+  double area_in(const Claim& claim) const {
+    double area = 0;
+    for (const Index f : faces_around(claim))
+      area += area_of(part_in_square(faces_[f], claim.x, claim.y));
+    return area;
+  }
+
+  double common_area(const Claim& a, const Claim& b) const {
+    double area = 0;
+    for (const Index g : faces_around(b)) {
+      Polygon triangle;
+      for (const Vec2& corner : faces_[g].corners) triangle.push_back(corner - Vec2(b.x, b.y));
+      for (const Index f : faces_around(a))
+        area += area_of(part_in_triangle(part_in_square(faces_[f], a.x, a.y), triangle));
+    }
+    return area;
   }
 
   /// \pre p lies outside

@@ -13,6 +13,7 @@
 
 #include "onmesh/atlas/charts.h"
 #include "onmesh/atlas/claim_texels.h"
+#include "onmesh/atlas/settle_claims.h"
 #include "onmesh/atlas/uv_triangle.h"
 #include "onmesh/base/face_error.h"
 #include "onmesh/base/parallel.h"
@@ -241,6 +242,7 @@ TexelMap make_texel_map(const TriangleMesh& mesh, std::vector<TexelTile> tiles,
   const std::vector<Strip> strips = make_strips(atlas);
   mark_touched(atlas, strips);
   claim_texels(atlas, strips);
+  settle_claims(atlas);
   return map;
 }
 

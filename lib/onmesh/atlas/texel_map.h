@@ -60,9 +60,10 @@ struct TexelTile {
 ///
 /// A centre on an edge or vertex shared by several faces of one chart belongs to the lowest face
 /// index; a chart without any centre claims the one texel it overlaps most, through the face
-/// closest to that texel's centre. A chart is a set of faces connected over edges whose UV indices
-/// agree on all sides, in one tile (find_charts()). Faces without UV or surface area are not
-/// rasterised.
+/// closest to that texel's centre. Where charts touch, by less than half a texel of overlap, the
+/// texel belongs to the chart that covers more of it. A chart is a set of faces connected over
+/// edges whose UV indices agree on all sides, in one tile (find_charts()). Faces without UV or
+/// surface area are not rasterised.
 class TexelMap {
  public:
   std::vector<TexelTile> tiles;     ///< at least one

@@ -121,41 +121,20 @@ std::pair<std::int64_t, std::int64_t> UvTriangle::columns(std::int64_t row,
   return {std::int64_t(std::floor(left + tolerance)), std::int64_t(std::ceil(right - tolerance))};
 }
 
-std::size_t UvTriangle::clip(std::int64_t x, std::int64_t y, Polygon& polygon) const {
-  Polygon next;
-  std::size_t size = 3;
+ConvexPolygon UvTriangle::part_in(std::int64_t x, std::int64_t y) const {
   const Vec2 corner{double(x), double(y)};
-  for (std::size_t k = 0; k < 3; ++k) polygon[k] = corners[k] - corner;
-  for (int side = 0; side < 4 && size > 0; ++side) {
-    const int axis = side / 2;
-    const auto depth = [&](const Vec2& p) { return side % 2 ? 1 - p[axis] : p[axis]; };
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < size; ++i) {
-      const Vec2 &a = polygon[i], &b = polygon[(i + 1) % size];
-      const double da = depth(a), db = depth(b);
-      if (da >= 0) next[kept++] = a;
-      if ((da > 0 && db < 0) || (da < 0 && db > 0)) next[kept++] = a + (b - a) * (da / (da - db));
-    }
-    std::swap(polygon, next);
-    size = kept;
-  }
-  return size;
+  ConvexPolygon part(corners[0] - corner, corners[1] - corner, corners[2] - corner);
+  part.clip({0, 0}, {1, 0});
+  part.clip({1, 1}, {-1, 0});
+  part.clip({0, 0}, {0, 1});
+  part.clip({1, 1}, {0, -1});
+  return part;
 }
 
-double UvTriangle::area_in(std::int64_t x, std::int64_t y) const {
-  Polygon polygon;
-  const std::size_t size = clip(x, y, polygon);
-  double twice = 0;
-  for (std::size_t i = 0; i < size; ++i) twice += cross(polygon[i], polygon[(i + 1) % size]);
-  return std::abs(twice) / 2;
-}
+double UvTriangle::area_in(std::int64_t x, std::int64_t y) const { return part_in(x, y).area(); }
 
 Vec2 UvTriangle::point_in(std::int64_t x, std::int64_t y) const {
-  Polygon polygon;
-  const std::size_t size = clip(x, y, polygon);
-  Vec2 sum = Vec2::Zero();
-  for (std::size_t i = 0; i < size; ++i) sum += polygon[i];
-  return Vec2(double(x), double(y)) + sum / double(size);
+  return Vec2(double(x), double(y)) + part_in(x, y).centre();
 }
 
 }  // namespace onmesh

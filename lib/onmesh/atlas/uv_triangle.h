@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "onmesh/base/convex_polygon.h"
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {
@@ -49,18 +50,13 @@ struct UvTriangle {
   std::pair<std::int64_t, std::int64_t> rows(double tolerance) const;
   /// Columns it meets within a row of texels: [first, second).
   std::pair<std::int64_t, std::int64_t> columns(std::int64_t row, double tolerance) const;
+  /// The part within the square of texel (x, y), in texels from the square's corner.
+  ConvexPolygon part_in(std::int64_t x, std::int64_t y) const;
   /// Area within the square of texel (x, y), in texels.
   double area_in(std::int64_t x, std::int64_t y) const;
   /// A point of the triangle within the texel's square, in its inside if they overlap.
   /// \pre they meet
   Vec2 point_in(std::int64_t x, std::int64_t y) const;
-
- private:
-  using Polygon = std::array<Vec2, 8>;
-  /// Clip to the texel's square (Sutherland and Hodgman 1974), coordinates relative to the square's
-  /// corner.
-  /// \return the number of the polygon's corners
-  std::size_t clip(std::int64_t x, std::int64_t y, Polygon& polygon) const;
 };
 
 /// A UV in pixels of a width x height image.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "onmesh/atlas/overlap.h"
 #include "onmesh/atlas/texel_map.h"
 #include "onmesh/distance/backend.h"
 #include "onmesh/filter/length.h"
@@ -27,13 +28,6 @@ enum class FilterMethod {
   automatic,  ///< on the nodes where that is faster and within the tolerance, else directly
   direct,     ///< sample by sample
   nodes,      ///< on the nodes (kernel/splat), at a cost that does not depend on sigma
-};
-
-/// What becomes of texels that several places of the surface claim.
-enum class Overlap {
-  average,  ///< the mean of the places' results, weighted by their areas
-  first,    ///< the result of the face that comes first in the mesh
-  error,    ///< they are refused
 };
 
 /// Values outside the ranges below are refused with an OptionError that names the field.

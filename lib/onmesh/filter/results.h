@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "onmesh/filter/overlap.h"
+#include "onmesh/filter/shared_results.h"
 #include "onmesh/image/texel_values.h"
 
 namespace onmesh {

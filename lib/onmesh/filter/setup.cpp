@@ -108,7 +108,9 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const SurfaceTextures& textu
   check_options(options, mesh.faces.size());
   check_textures(textures, mesh.faces.size());
   FilterSetup setup{prepare_mesh(mesh, textures, options), {}, {}, {}, false, {}};
-  setup.overlap = OverlapPolicy(options.overlap, setup.map, textures);
+  std::vector<std::string> names;
+  for (const TextureTile& tile : textures.tiles) names.push_back(tile.name);
+  setup.overlap = OverlapPolicy(options.overlap, setup.map, names);
   if (!setup.overlap.texels().empty()) setup.warnings.push_back(setup.overlap.warning());
 
   const bool poisson = options.samples == SampleKind::poisson;

@@ -1,8 +1,8 @@
 // The first part of the filter, which plan_filter() stops after: mesh, texel map, resolved lengths.
 #pragma once
 
+#include "onmesh/atlas/overlap.h"
 #include "onmesh/filter/options.h"
-#include "onmesh/filter/overlap.h"
 #include "onmesh/filter/prepare_mesh.h"
 #include "onmesh/filter/report.h"
 #include "onmesh/filter/working_plan.h"
