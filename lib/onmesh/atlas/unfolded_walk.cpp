@@ -221,7 +221,7 @@ WalkEnd UnfoldedWalk::over_edge(const LaidFace& start, int k, const Vec2& from,
     return over_surface(start, from, to);
   WalkEnd end = walk_out<false>(start, k, from, to);
   if (end.arrived) return end;
-  const WalkEnd other = over_surface(start, from, to);
+  WalkEnd other = over_surface(start, from, to);
   if (other.arrived) return other;
   if (const auto beyond = over_gap(end, to)) return *beyond;
   return over_gap(other, to).value_or(end);

@@ -231,22 +231,24 @@ void write_images(const std::vector<ImageFile>& files, const ImageWriteOptions& 
   for (const ImageFile& file : files) check_writable_image(file.path, *file.image);
   std::vector<std::unique_ptr<AtomicFile>> written;
   std::vector<std::string> found;
-  for (const auto& [path, image] : files) {
+  for (const ImageFile& file : files) {
+    const auto& path = file.path;
+    const Image& image = *file.image;
     const ImageFormat& format = image_format(path);
-    const auto types = choose_types(format, *image, options);
+    const auto types = choose_types(format, image, options);
     written.push_back(std::make_unique<AtomicFile>(path));
     try {
-      encode(written.back()->temporary(), path, format, *image, types);
-      verify(written.back()->temporary(), path, format, *image, types);
+      encode(written.back()->temporary(), path, format, image, types);
+      verify(written.back()->temporary(), path, format, image, types);
     } catch (const std::bad_alloc&) {
       throw FileError(path.string() + ": not enough memory to write the image");
     }
     const auto warn = [&](const std::string& what) {
       found.push_back(path.string() + ": " + what);
     };
-    warn_of_types(*image, options, types, warn);
-    warn_of_values(*image, types, warn);
-    warn_of_meaning(format, *image, warn);
+    warn_of_types(image, options, types, warn);
+    warn_of_values(image, types, warn);
+    warn_of_meaning(format, image, warn);
   }
   commit_all(written);
   if (warnings != nullptr) warnings->insert(warnings->end(), found.begin(), found.end());

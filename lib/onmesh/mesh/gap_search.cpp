@@ -105,15 +105,15 @@ bool GapSearch::is_other_side(Index edge, Index other, double distance) const {
 }
 
 double GapSearch::gap_at(Index edge, double width) const {
-  const auto [a, b] = edges_[edge].ends;
   const auto& points = mesh_.positions;
+  const Vec3 &a = points[edges_[edge].ends[0]], &b = points[edges_[edge].ends[1]];
   double least = width;
   Index nearest = kNone;
-  tree_.visit_near(points[a], points[b], width, [&](Index other) {
+  tree_.visit_near(a, b, width, [&](Index other) {
     for (std::size_t end = 0; end < 2; ++end) {
       BoundaryPoint from{edge, 0};
-      const double d = std::sqrt(squared_distance_to_segment(points[edges_[other].ends[end]],
-                                                             points[a], points[b], &from.position));
+      const double d = std::sqrt(
+          squared_distance_to_segment(points[edges_[other].ends[end]], a, b, &from.position));
       if (!(d <= least) || (nearest != kNone && d == least && nearest < other)) continue;
       if (!is_across(from, {other, static_cast<double>(end)}, d)) continue;
       least = d;
