@@ -19,6 +19,7 @@
 #include "onmesh/measure/nearby_geodesics.h"
 #include "onmesh/mesh_io/write_ply.h"
 #include "onmesh/nodes/bridge.h"
+#include "output_names.h"
 #include "report.h"
 #include "stopwatch.h"
 #include "subcommands.h"

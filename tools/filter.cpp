@@ -18,6 +18,7 @@
 #include "onmesh/base/process_memory.h"
 #include "onmesh/image/image_io.h"
 #include "onmesh/mesh_io/read_mesh.h"
+#include "output_names.h"
 #include "report.h"
 #include "shared_options.h"
 #include "stopwatch.h"

@@ -13,6 +13,7 @@
 #include "onmesh/base/text.h"
 #include "onmesh/base/triangle.h"
 #include "onmesh/image/image_io.h"
+#include "output_names.h"
 #include "report.h"
 #include "shared_options.h"
 #include "subcommands.h"

@@ -11,6 +11,7 @@
 #include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/render/render.h"
 #include "onmesh/render/texture_view.h"
+#include "output_names.h"
 #include "ply_column.h"
 #include "shared_options.h"
 #include "subcommands.h"
