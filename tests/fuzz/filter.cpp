@@ -25,22 +25,24 @@ struct TexelRules {
   bool all_finite = true;              ///< the covered texels' values
   std::vector<float> lowest, highest;  ///< per channel, of the finite values that are summed over
 
-  TexelRules(const FilterSetup& setup, const FilterOptions& options, const Image& texture);
+  TexelRules(const FilterSetup& setup, const FilterOptions& options,
+             const ConstTexelValues& texels);
 };
 
-TexelRules::TexelRules(const FilterSetup& setup, const FilterOptions& options, const Image& texture)
+TexelRules::TexelRules(const FilterSetup& setup, const FilterOptions& options,
+                       const ConstTexelValues& texels)
     : covered(setup.map.coverage.size()), gutter(covered) {
   for (const Index texel : gutter_texels(setup.map, options.gutter)) gutter[texel] = true;
-  lowest.assign(std::size_t(texture.channels), std::numeric_limits<float>::infinity());
-  highest.assign(std::size_t(texture.channels), -std::numeric_limits<float>::infinity());
+  lowest.assign(std::size_t(texels.channels()), std::numeric_limits<float>::infinity());
+  highest.assign(std::size_t(texels.channels()), -std::numeric_limits<float>::infinity());
   // Poisson samples lie beside texels' centres, and may read texels that no face claims.
   const bool reads_others = options.samples == SampleKind::poisson;
   for (Index texel = 0; texel < covered.size(); ++texel) {
     covered[texel] = setup.map.coverage[texel] == Coverage::covered;
     if (!covered[texel] && !reads_others) continue;
-    for (const int channel : texture.range_channels()) {
+    for (const int channel : texels.range_channels()) {
       const auto c = std::size_t(channel);
-      const float value = texture.texel(texel)[c];
+      const float value = texels[texel][c];
       if (covered[texel]) all_finite &= std::isfinite(value);
       if (!std::isfinite(value)) continue;
       lowest[c] = std::min(lowest[c], value);
@@ -51,12 +53,13 @@ TexelRules::TexelRules(const FilterSetup& setup, const FilterOptions& options, c
 
 /// A covered texel stays in the range of what is summed over, and so does the gutter, which is made
 /// of those; nothing else changes.
-void check_texel(const TexelRules& rules, Index texel, const Image& texture, const Image& result) {
-  const float *before = texture.texel(texel), *after = result.texel(texel);
-  std::vector<bool> filtered(std::size_t(texture.channels));
-  for (const int c : texture.range_channels()) filtered[std::size_t(c)] = true;
+void check_texel(const TexelRules& rules, Index texel, const ConstTexelValues& texels,
+                 const ConstTexelValues& results) {
+  const float *before = texels[texel], *after = results[texel];
+  std::vector<bool> filtered(std::size_t(texels.channels()));
+  for (const int c : texels.range_channels()) filtered[std::size_t(c)] = true;
   bool finite = true;
-  for (const int c : texture.range_channels()) finite &= std::isfinite(before[c]);
+  for (const int c : texels.range_channels()) finite &= std::isfinite(before[c]);
   const bool may_change = rules.gutter[texel] || (rules.covered[texel] && finite);
   for (std::size_t c = 0; c < filtered.size(); ++c) {
     if (same_bits(before[c], after[c])) continue;
@@ -75,15 +78,22 @@ void check_texel(const TexelRules& rules, Index texel, const Image& texture, con
   }
 }
 
-void check_result(const FilterSetup& setup, const FilterOptions& options, const Image& texture,
-                  const Image& result) {
-  fuzz::require(result.width == texture.width && result.height == texture.height &&
-                    result.channels == texture.channels &&
-                    result.pixels.size() == texture.pixels.size(),
-                "the result has another size");
-  const TexelRules rules(setup, options, texture);
+void check_results(const FilterSetup& setup, const FilterOptions& options,
+                   const SurfaceTextures& textures, const std::vector<Image>& results) {
+  fuzz::require(results.size() == textures.tiles.size(), "there is not a result for every texture");
+  ConstTexelValues after;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const Image &texture = *textures.tiles[i].image, &result = results[i];
+    fuzz::require(result.width == texture.width && result.height == texture.height &&
+                      result.channels == texture.channels &&
+                      result.pixels.size() == texture.pixels.size(),
+                  "a result has another size");
+    after.add(result);
+  }
+  const ConstTexelValues before = textures.values();
+  const TexelRules rules(setup, options, before);
   for (Index texel = 0; texel < rules.covered.size(); ++texel) {
-    check_texel(rules, texel, texture, result);
+    check_texel(rules, texel, before, after);
   }
 }
 
@@ -95,18 +105,20 @@ struct OutOfTime {};
 
 /// What became of a case.
 struct Outcome {
-  std::optional<Image> image;  ///< none if it is an error
-  bool in_time = true;         ///< else nothing is known
+  std::optional<std::vector<Image>> images;  ///< none if it is an error
+  bool in_time = true;                       ///< else nothing is known
 };
 
-Outcome try_filter(const TriangleMesh& mesh, const Image& texture, const FilterOptions& options) {
+Outcome try_filter(const TriangleMesh& mesh, const SurfaceTextures& textures,
+                   const FilterOptions& options) {
   Outcome outcome;
   const std::clock_t start = std::clock();
   const auto stop_in_time = [&](std::string_view, double) {
     if (double(std::clock() - start) / CLOCKS_PER_SEC > kMostSeconds) throw OutOfTime();
   };
   try {
-    fuzz::succeeds([&] { outcome.image = filter(mesh, texture, options, nullptr, stop_in_time); });
+    fuzz::succeeds(
+        [&] { outcome.images = filter(mesh, textures, options, nullptr, stop_in_time); });
   } catch (const OutOfTime&) {
     outcome.in_time = false;
   }
@@ -118,23 +130,23 @@ Outcome try_filter(const TriangleMesh& mesh, const Image& texture, const FilterO
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input(data, size);
   const bool twice = input.below(8) == 7;
-  const Image texture = fuzz::make_texture(input);
+  std::vector<Image> images{fuzz::make_texture(input)};
   const TriangleMesh mesh = fuzz::make_mesh(input);
   FilterOptions options = fuzz::make_options(input, mesh.faces.size());
+  const SurfaceTextures textures = fuzz::make_textures(input, images, mesh, options);
   options.threads = 1;
-  const Outcome one = try_filter(mesh, texture, options);
-  if (one.image)
-    check_result(set_up_filter(mesh, one_texture(texture, options), options), options, texture,
-                 *one.image);
+  const Outcome one = try_filter(mesh, textures, options);
+  if (one.images)
+    check_results(set_up_filter(mesh, textures, options), options, textures, *one.images);
   if (!twice || !one.in_time) return 0;
   options.threads = 2;
-  const Outcome two = try_filter(mesh, texture, options);
+  const Outcome two = try_filter(mesh, textures, options);
   if (!two.in_time) return 0;
-  fuzz::require(one.image.has_value() == two.image.has_value(),
+  fuzz::require(one.images.has_value() == two.images.has_value(),
                 "two threads end otherwise than one");
-  if (one.image) {
-    fuzz::require(std::memcmp(one.image->pixels.data(), two.image->pixels.data(),
-                              one.image->pixels.size() * sizeof(float)) == 0,
+  for (std::size_t i = 0; one.images && i < images.size(); ++i) {
+    const auto &a = (*one.images)[i].pixels, &b = (*two.images)[i].pixels;
+    fuzz::require(std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0,
                   "two threads give another result than one");
   }
   return 0;

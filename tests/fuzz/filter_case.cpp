@@ -69,6 +69,35 @@ Image make_texture(Input& input) {
   return texture;
 }
 
+SurfaceTextures make_textures(Input& input, std::vector<Image>& images, const TriangleMesh& mesh,
+                              const FilterOptions& options) {
+  const std::size_t more = input.below(4);
+  for (std::size_t i = 0; i < more; ++i) {
+    const int width = 1 + int(input.below(24)), height = 1 + int(input.below(24));
+    images.push_back(make_image(width, height, images[0].channels));
+    images.back().alpha_channel = images[0].alpha_channel;
+    fill_with_pattern(input, images.back());
+    plant_odd_values(input, images.back());
+  }
+  SurfaceTextures textures = one_texture(images[0], options);
+  if (more == 0) return textures;
+  const bool side_by_side = input.flag();
+  textures.tiles.clear();
+  for (const Image& image : images) {
+    const auto number = int(textures.tiles.size());
+    textures.tiles.push_back({&image, input.flag() ? Wrap::clamp : Wrap::repeat,
+                              side_by_side ? number % 2 : 0, side_by_side ? number / 2 : 0,
+                              std::to_string(number)});
+  }
+  // One more for faces that carry no texels.
+  textures.tile_of_face.resize(mesh.faces.size());
+  for (Index& tile : textures.tile_of_face) {
+    tile = Index(input.below(images.size() + 1));
+    if (tile == images.size()) tile = kNone;
+  }
+  return textures;
+}
+
 FilterOptions make_options(Input& input, std::size_t faces) {
   FilterOptions options;
   const std::uint8_t choices = input.byte(), more = input.byte();
@@ -91,6 +120,7 @@ FilterOptions make_options(Input& input, std::size_t faces) {
   if (bit(choices, 2)) options.wrap = Wrap::clamp;
   if (bit(choices, 3)) options.radius = length(input, 0.25);
   if (bit(choices, 4)) options.bridge = length(input, 1e-3);
+  if (bit(choices, 6)) options.weld = length(input, 1e-3);
   if (bit(choices, 5)) options.tolerance = bit(more, 0) ? 1e-9 : 10;
   if (bit(more, 1)) options.node_spacing = length(input, 0.5);
   if (bit(more, 2)) options.spacing = length(input, 0.5);
@@ -100,6 +130,7 @@ FilterOptions make_options(Input& input, std::size_t faces) {
     options.faces.resize(faces);
     for (std::size_t f = 0; f < faces; ++f) options.faces[f] = (f + input.byte()) % 3 != 0;
   }
+  if (bit(more, 7)) options.stop_at_materials = true;
   options.max_memory = std::uint64_t(1) << 30;
   return options;
 }

@@ -2,8 +2,11 @@
 // of filter() that has an answer, be it an error.
 #pragma once
 
+#include <vector>
+
 #include "fuzz/input.h"
 #include "onmesh/filter/options.h"
+#include "onmesh/filter/surface_textures.h"
 #include "onmesh/image/image.h"
 #include "onmesh/mesh/triangle_mesh.h"
 
@@ -17,6 +20,12 @@ TriangleMesh make_mesh(Input& input);
 
 /// At most 24 x 24 texels of 1 to 4 channels, some of the values not finite or huge.
 Image make_texture(Input& input);
+
+/// Often only the first; else up to three more of the same channels, in tiles side by side or one
+/// on the other. \param images begins with the first, gets the others \return textures of `images`,
+/// which must not be resized any more
+SurfaceTextures make_textures(Input& input, std::vector<Image>& images, const TriangleMesh& mesh,
+                              const FilterOptions& options);
 
 /// Any method, with lengths that leave the filter little to do on so few faces.
 /// \param faces of the mesh

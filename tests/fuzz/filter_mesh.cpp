@@ -176,6 +176,8 @@ TriangleMesh make_mesh(Input& input) {
     damage(input, mesh);
     if (mesh.uvs.empty()) mesh.uvs.emplace_back(0, 0);
   }
+  mesh.materials.resize(2);
+  for (Index f = 0; f < mesh.faces.size(); ++f) mesh.face_materials[f] = f % 3 < 2 ? f % 3 : kNone;
   // Readers refuse coordinates that are not finite; factors may have made some.
   for (Vec3& p : mesh.positions) {
     for (double& x : p) {

@@ -101,7 +101,8 @@ TEST_CASE("map and sample name the file's faces where those were split", "[tools
   }
   CHECK(seen > 100);
   space.must("sample m.obj -o s.ply --spacing 0.05");
-  for (const double f : ply_columns(space / "s.ply")["face"]) CHECK(f < 8);
+  const std::vector<double> faces = ply_columns(space / "s.ply")["face"];
+  for (const double f : faces) CHECK(f < 8);
 }
 
 TEST_CASE("distances lead over what was joined and come back to the file's vertices",
