@@ -138,13 +138,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Outcome one = try_filter(mesh, textures, options);
   if (one.images)
     check_results(set_up_filter(mesh, textures, options), options, textures, *one.images);
-  if (!twice || !one.in_time) return 0;
+  if (!twice || !one.images) return 0;
   options.threads = 2;
+  options.max_memory = 0;  // there is more in use by now than there was
   const Outcome two = try_filter(mesh, textures, options);
   if (!two.in_time) return 0;
-  fuzz::require(one.images.has_value() == two.images.has_value(),
-                "two threads end otherwise than one");
-  for (std::size_t i = 0; one.images && i < images.size(); ++i) {
+  fuzz::require(two.images.has_value(), "two threads end otherwise than one");
+  for (std::size_t i = 0; i < images.size(); ++i) {
     const auto &a = (*one.images)[i].pixels, &b = (*two.images)[i].pixels;
     fuzz::require(std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0,
                   "two threads give another result than one");

@@ -2,8 +2,13 @@
 
 #include <limits>
 
+#include "onmesh/base/process_memory.h"
+
 namespace onmesh::fuzz {
 namespace {
+
+/// For one case, bytes: beside what the program holds by now.
+constexpr std::uint64_t kMostMemory = std::uint64_t(1) << 30;
 
 /// The next of the values of a generator that is the same everywhere.
 float next_value(std::uint32_t& state) {
@@ -131,7 +136,7 @@ FilterOptions make_options(Input& input, std::size_t faces) {
     for (std::size_t f = 0; f < faces; ++f) options.faces[f] = (f + input.byte()) % 3 != 0;
   }
   if (bit(more, 7)) options.stop_at_materials = true;
-  options.max_memory = std::uint64_t(1) << 30;
+  options.max_memory = resident_memory_bytes() + kMostMemory;
   return options;
 }
 

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <random>
+#include <tuple>
 
 #include "onmesh/base/error.h"
 #include "onmesh/image/image_io.h"
@@ -165,4 +166,45 @@ TEST_CASE("an EXR attribute that claims more than the file holds is refused befo
   changed.replace(changed.find(before) + before.size(), 4, little(std::int32_t(1'700'000'000)));
   dump(folder / "b.exr", changed);
   CHECK_THROWS_WITH(read_image(folder / "b.exr"), Catch::Contains("the file is truncated"));
+}
+
+TEST_CASE("an EXR attribute that is not as long as its type is refused", "[read_image]") {
+  const ImageFolder folder;
+  const std::string bytes = make_exr(2, 1, {{"Y", 2}}, {little(0.5F) + little(1.0F)});
+  // One byte more than the type has, also where the list of channels ends by itself.
+  for (const auto& [name, type, size] : {std::tuple{"channels", "chlist", 19},
+                                         {"dataWindow", "box2i", 16},
+                                         {"compression", "compression", 1}}) {
+    INFO(name);
+    const std::string head = std::string(name) + '\0' + type + '\0';
+    const std::size_t at = bytes.find(head) + head.size();
+    REQUIRE(bytes.substr(at, 4) == little(std::int32_t(size)));
+    std::string changed = bytes;
+    changed.replace(at, 4, little(std::int32_t(size + 1)));
+    changed.insert(at + 4 + std::size_t(size), 1, 'x');
+    dump(folder / "b.exr", changed);
+    CHECK_THROWS_WITH(read_image(folder / "b.exr"), Catch::Contains("the EXR header is damaged"));
+  }
+}
+
+TEST_CASE("a TGA that is shorter than its header has it is refused before there is room for it",
+          "[read_image]") {
+  const ImageFolder folder;
+  write_image(folder / "a.tga", noise(8, 8, 3));
+  const std::string bytes = slurp(folder / "a.tga").substr(0, 18 + 8 * 8 * 3);
+  dump(folder / "b.tga", bytes);
+  CHECK(read_image(folder / "b.tga").width == 8);
+  constexpr std::size_t kType = 2, kRows = 14, kRuns = 10;
+  std::string longer = bytes;
+  longer.at(kRows) = 9;
+  dump(folder / "b.tga", longer);
+  CHECK_THROWS_WITH(read_image(folder / "b.tga"), Catch::Contains("the file is truncated"));
+  // 64 x 64 texels take 32 runs of 4 bytes at least; a black square of 8 x 8 takes one.
+  std::string runs = bytes.substr(0, 18);
+  runs.at(kType) = char(kRuns);
+  dump(folder / "b.tga", runs + std::string("\xbf\0\0\0", 4));
+  CHECK(read_image(folder / "b.tga").pixels[0] == 0);
+  runs.at(12) = runs.at(kRows) = 64;
+  dump(folder / "b.tga", runs + std::string("\xbf\0\0\0", 4));
+  CHECK_THROWS_WITH(read_image(folder / "b.tga"), Catch::Contains("the file is truncated"));
 }
