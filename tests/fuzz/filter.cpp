@@ -99,7 +99,7 @@ void check_results(const FilterSetup& setup, const FilterOptions& options,
 
 /// Seconds of processor time. Few faces may well need many nodes, beside spikes of 1 : 10^18 as
 /// many as there may be: such a case is left when it has taken this, for the sake of the others.
-constexpr double kMostSeconds = 0.1;
+constexpr double kMostSeconds = 0.05;
 
 struct OutOfTime {};
 
