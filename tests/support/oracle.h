@@ -16,7 +16,8 @@ namespace onmesh {
 /// A texel's place on a chart is its centre, if that lies in or on a UV face of the chart. A centre
 /// on an edge or a corner that several faces of the chart share belongs to the lowest face. A chart
 /// without any centre gets the texel that it overlaps most. Where charts have less than half of a
-/// texel in common, and no two by two texels next to it, the one that covers most of it has it alone.
+/// texel in common, and no two by two texels next to it, the one that covers most of it has it
+/// alone.
 struct TexelPoints {
   std::vector<SurfacePoint> points;
   std::vector<Vec3> positions;

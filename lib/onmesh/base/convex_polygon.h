@@ -1,9 +1,11 @@
 // A triangle of the plane cut down by lines.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "onmesh/base/plane.h"
 
@@ -32,6 +34,18 @@ class ConvexPolygon {
     size_ = size;
   }
 
+  bool empty() const { return size_ == 0; }
+  /// Lowest and highest coordinate.
+  /// \param axis 0 = x, 1 = y
+  /// \pre something is left
+  std::pair<double, double> extent(int axis) const {
+    std::pair<double, double> range{corners_[0][axis], corners_[0][axis]};
+    for (std::size_t i = 1; i < size_; ++i) {
+      range.first = std::min(range.first, corners_[i][axis]);
+      range.second = std::max(range.second, corners_[i][axis]);
+    }
+    return range;
+  }
   /// Not negative; 0 if nothing is left.
   double area() const {
     double twice = 0;

@@ -9,6 +9,7 @@
 #include "onmesh/mesh/closest_point.h"
 #include "onmesh/mesh/components.h"
 #include "onmesh/mesh/gap_search.h"
+#include "onmesh/nodes/overlay_lookup.h"
 
 namespace onmesh {
 namespace {
@@ -97,6 +98,7 @@ Index add_bridges(const TriangleMesh& mesh, double width, NodeSurface& surface) 
   std::optional<ClosestPoint> closest_point;
   if (any_close) closest_point.emplace(mesh);
   const BoundaryNodes boundary(mesh, gaps);
+  const OverlayLookup overlay(surface.overlay);
   std::vector<Index> across(nodes.nodes.size(), kNone);
   tbb::parallel_for(std::size_t{0}, across.size(), [&](std::size_t n) {
     const SurfacePoint& node = nodes.nodes[n];
@@ -107,7 +109,7 @@ Index add_bridges(const TriangleMesh& mesh, double width, NodeSurface& surface) 
           closest_point->closest_other(mesh.position(node), width, component, component[node.face]);
     }
     if (!nearest) nearest = boundary.across(Index(n), node, width);
-    if (nearest) across[n] = surface.overlay.locate(*nearest).face;
+    if (nearest) across[n] = overlay.locate(*nearest).face;
   });
 
   Index bridges = 0;

@@ -18,7 +18,10 @@ Index Overlay::piece_at(const SurfacePoint& point) const {
 
 NodePoint Overlay::locate(const SurfacePoint& point) const {
   const Index piece = piece_at(point);
-  if (piece == kNone) return {};
+  return piece == kNone ? NodePoint{} : in_piece(piece, point);
+}
+
+NodePoint Overlay::in_piece(Index piece, const SurfacePoint& point) const {
   const Vec3 b = (pieces[piece].to_node * point.barycentric).cwiseMax(0.0);
   return {pieces[piece].node_face, b / b.sum()};
 }

@@ -24,8 +24,11 @@ struct Overlay {
   /// \return kNone if the face has no pieces, as a face without area
   Index piece_at(const SurfacePoint& point) const;
   /// The point in the piece that holds it, clamped to the face.
+  /// Looks through all pieces of the face: for many points there is OverlayLookup.
   /// \return face kNone if there is no piece
   NodePoint locate(const SurfacePoint& point) const;
+  /// The point in a piece of its face, clamped to the node face.
+  NodePoint in_piece(Index piece, const SurfacePoint& point) const;
 };
 
 }  // namespace onmesh

@@ -6,6 +6,7 @@
 
 #include "onmesh/atlas/claim_lookup.h"
 #include "onmesh/base/face_error.h"
+#include "onmesh/nodes/overlay_lookup.h"
 #include "onmesh/samples/make_sample.h"
 
 namespace onmesh {
@@ -43,7 +44,7 @@ Samples sort_into_faces(std::vector<Sample> located, const std::vector<Index>& f
   return out;
 }
 
-NodePoint locate(const Overlay& overlay, const SurfacePoint& point) {
+NodePoint locate(const OverlayLookup& overlay, const SurfacePoint& point) {
   NodePoint at = overlay.locate(point);
   if (at.face == kNone) {
     throw FaceError<NumericError>(point.face, "it is too thin to be laid out between the nodes");
@@ -55,10 +56,11 @@ NodePoint locate(const Overlay& overlay, const SurfacePoint& point) {
 
 Samples point_samples(const TriangleMesh& mesh, const TexelMap& map, const NodeSurface& surface,
                       const std::vector<SurfacePoint>& points, double area) {
+  const OverlayLookup overlay(surface.overlay);
   std::vector<Sample> located(points.size());
   std::vector<Index> face_of(points.size());
   oneapi::tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-    const NodePoint at = locate(surface.overlay, points[i]);
+    const NodePoint at = locate(overlay, points[i]);
     face_of[i] = at.face;
     located[i] =
         make_sample(map.tile_of(points[i].face).texel_at(mesh.uv(points[i])), at.barycentric, area);
@@ -88,11 +90,12 @@ Samples sharing_samples(const TriangleMesh& mesh, const TexelMap& map, const Nod
   for (Index claim = 0; claim < areas.size(); ++claim)
     areas[lookup.leader(claim)] += map.texel_area[lookup.face_of(claim)];
 
+  const OverlayLookup overlay(surface.overlay);
   std::vector<Sample> located(kept.size());
   std::vector<Index> face_of(kept.size());
   oneapi::tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t i) {
     const Index claim = claim_of[i];
-    const NodePoint at = locate(surface.overlay, kept[i]);
+    const NodePoint at = locate(overlay, kept[i]);
     face_of[i] = at.face;
     located[i] = make_sample(map.tile_of(lookup.face_of(claim)).texel(map.claims[claim]),
                              at.barycentric, areas[claim] / sharers[claim]);
