@@ -15,8 +15,8 @@ namespace {
 constexpr Index kFewPieces = 32;
 /// Cells: what rounding may move a piece by.
 constexpr double kMargin = 1e-6;
-/// A barycentric coordinate that is less below 0 is on the edge.
-constexpr double kOnEdge = 1e-10;
+/// A point with a barycentric coordinate below this is outside.
+constexpr double kOutside = -1e-10;
 
 /// Calls visit(column, row) for every cell that the piece meets, or is near; for all of them if its
 /// place cannot be told.
@@ -105,7 +105,7 @@ NodePoint OverlayLookup::locate(const SurfacePoint& point) const {
       best = pieces_[i];
     }
   }
-  return most < -kOnEdge ? overlay_.locate(point) : overlay_.in_piece(best, point);
+  return most < kOutside ? overlay_.locate(point) : overlay_.in_piece(best, point);
 }
 
 }  // namespace onmesh
