@@ -27,10 +27,9 @@ namespace onmesh {
 /// \return one image per tile with filtered values, its format as before
 /// \throw OptionError for options outside their domain or ignored by the mode chosen
 /// \throw InputError if arrays of the mesh or the textures do not fit together; if no face carries
-/// a
-///   texel or a texture has no channel but alpha; if the tiles' channels differ; if exact distances
-///   are asked for on a mesh that is not manifold, or would take more than an hour; if a texel is
-///   claimed twice with Overlap::error; if there is too little memory
+///   a texel or a texture has no channel but alpha; if the tiles' channels differ; if exact
+///   distances are asked for on a mesh that is not manifold, or would take more than an hour; if a
+///   texel is claimed twice with Overlap::error; if there is too little memory
 /// \throw FaceError<InputError>, FaceError<NumericError> at a face, by its number in `mesh`
 std::vector<Image> filter(const TriangleMesh& mesh, const SurfaceTextures& textures,
                           const FilterOptions& options, FilterReport* report = nullptr,

@@ -26,8 +26,9 @@ ImageDifference difference(const Image& a, const Image& b, const TexelMap* map =
                            Index tile = 0);
 
 /// That of several pairs of images with the same channels, all values counted alike. The worst
-/// texel is that of the pair with the largest maximum, the first if several have it. \param which
-/// receives the number of that pair \pre there are some
+/// texel is that of the pair with the largest maximum, the first if several have it.
+/// \param which receives the number of that pair
+/// \pre there are some
 ImageDifference together(const std::vector<ImageDifference>& parts, std::size_t* which = nullptr);
 
 }  // namespace onmesh
