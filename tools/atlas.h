@@ -30,8 +30,9 @@ struct Atlas {
 };
 
 /// --resolution WxH, or the sizes of the textures that -t or the mesh's materials name, on the
-/// faces that filter would choose: see choose_textures(). \param texture the option's name where
-/// --texture is something else \throw UsageError if both are given
+/// faces that filter would choose: see choose_textures().
+/// \param texture the option's name where --texture is something else
+/// \throw UsageError if both are given
 Atlas read_atlas(const Arguments& arguments, const TriangleMesh& mesh,
                  const std::string& texture = "texture");
 
