@@ -208,7 +208,7 @@ Comparison compare(const Arguments& arguments) {
   if (arguments.has("mesh")) {
     const auto material = arguments.optional_text("material");
     const InputMesh input = read_input_mesh(arguments.text("mesh"), weld_of(arguments));
-    warn(input.warnings);
+    warn(input.read.warnings);
     check_interrupted();
     if (result.pairs.size() == 1) {
       read_pairs(result);

@@ -251,7 +251,7 @@ int run_distance(const Arguments& arguments) {
   const std::string path = arguments.argument("mesh");
   const DistanceRequest request = read_distance_request(arguments);
   const InputMesh input = read_input_mesh(path, weld_of(arguments));
-  warn(input.warnings);
+  warn(input.read.warnings);
   const TriangleMesh& mesh = input.cleaned;
   if ((request.exact() || request.compare) && !input.cleaning.manifold())
     throw InputError(path + ": exact distances need a manifold mesh: " + input.cleaning.defects());

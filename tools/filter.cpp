@@ -216,7 +216,9 @@ FilterInputs read_inputs(const Arguments& arguments, Stopwatch& watch) {
   inputs.wrap = wrap_of(arguments);
   TextureRequest request{{}, arguments.optional_text("material"), tiles_of(arguments)};
   if (arguments.has("texture")) request.files = arguments.texts("texture");
-  inputs.mesh = read_mesh(inputs.mesh_path, &inputs.warnings);
+  ReadReport read;
+  inputs.mesh = read_mesh(inputs.mesh_path, &read);
+  inputs.warnings = read.warnings;
   inputs.stages.push_back(stage("read mesh", watch));
   check_interrupted();
   inputs.set = explained_by(inputs.warnings, [&] {

@@ -44,7 +44,7 @@ int run_info(const Arguments& arguments) {
   if (arguments.flag("json")) {
     print_json(input, findings);
   } else {
-    warn(input.warnings);
+    warn(input.read.warnings);
     print_text(input, findings);
   }
   if (!arguments.flag("strict") || findings.problems.empty()) return 0;

@@ -174,7 +174,7 @@ void print_json(const InputMesh& input, const Findings& findings) {
   for (const TextureFacts& t : findings.textures) json["textures"].push_back(texture_json(t));
   json["near_boundary_edges"] = findings.near.edges;
   json["seams"] = findings.seams ? to_json(*findings.seams) : nlohmann::json();
-  json["warnings"] = input.warnings;
+  json["warnings"] = input.read.warnings;
   json["advice"] = findings.advice;
   json["problems"] = findings.problems;
   json["filterable"] = findings.refusal.empty();

@@ -34,7 +34,7 @@ TriangleMesh weld_and_join(const TriangleMesh& mesh, const std::optional<Length>
 InputMesh read_input_mesh(const std::string& path, const std::optional<Length>& weld) {
   InputMesh mesh;
   mesh.path = path;
-  mesh.as_read = read_mesh(path, &mesh.warnings);
+  mesh.as_read = read_mesh(path, &mesh.read);
   mesh.welded = onmesh::weld(mesh.as_read);
   mesh.joined = join(mesh.welded, weld, mesh.joining);
   mesh.cleaned = clean(mesh.joined, &mesh.cleaning);

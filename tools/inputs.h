@@ -10,6 +10,7 @@
 #include "onmesh/filter/length.h"
 #include "onmesh/mesh/clean.h"
 #include "onmesh/mesh/join_boundaries.h"
+#include "onmesh/mesh_io/reading.h"
 #include "onmesh/nodes/refine.h"
 
 namespace onmesh::tools {
@@ -23,7 +24,7 @@ struct InputMesh {
   TriangleMesh cleaned;             ///< as clean() leaves it
   CleanReport cleaning;             ///< faces kept have their numbers in the file
   std::vector<Index> joined_faces;  ///< per face of `cleaned` its number in `joined`
-  std::vector<std::string> warnings;
+  ReadReport read;                  ///< what the reader found
 };
 
 /// \param weld the tolerance of joining boundaries, see FilterOptions::weld

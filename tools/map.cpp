@@ -193,7 +193,7 @@ int run_map(const Arguments& arguments) {
   wrap_of(arguments);
 
   InputMesh input = read_input_mesh(path, weld_of(arguments));
-  warn(input.warnings);
+  warn(input.read.warnings);
   check_interrupted();
   restore_corner_order(input, input.cleaned);
   Atlas atlas = read_atlas(arguments, input.cleaned);

@@ -127,7 +127,7 @@ int run_refine(const Arguments& arguments) {
 
   const InputMesh input = read_input_mesh(path, weld_of(arguments));
   const TriangleMesh& mesh = input.cleaned;
-  warn(input.warnings);
+  warn(input.read.warnings);
   set_lengths(arguments, mesh.diagonal(), options);
   check_node_count(mesh, options);
   check_interrupted();

@@ -240,11 +240,11 @@ int run_sample(const Arguments& arguments) {
   arguments.refuse_together("spacing", {"r-coef"});
   const bool quiet = arguments.flag("quiet");
 
-  std::vector<std::string> warnings;
+  ReadReport read;
   const std::optional<Length> weld = weld_of(arguments);
   JoinReport joining;
-  const TriangleMesh mesh = weld_and_join(read_mesh(path, &warnings), weld, joining);
-  if (!quiet) warn(warnings);
+  const TriangleMesh mesh = weld_and_join(read_mesh(path, &read), weld, joining);
+  if (!quiet) warn(read.warnings);
   check_interrupted();
   const Plan plan = naming(path, [&] { return make_plan(arguments, mesh); });
   check_interrupted();

@@ -274,9 +274,9 @@ std::vector<Image> textured_pictures(const TriangleMesh& mesh, const Arguments& 
 
 std::vector<Image> model_pictures(const std::string& path, const Arguments& arguments,
                                   const RenderOptions& options) {
-  std::vector<std::string> warnings;
-  TriangleMesh mesh = read_mesh(path, &warnings);
-  warn(warnings);
+  ReadReport read;
+  TriangleMesh mesh = read_mesh(path, &read);
+  warn(read.warnings);
   check_interrupted();
   std::vector<double> scalar;
   if (arguments.has("distance-ply")) {

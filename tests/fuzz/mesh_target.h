@@ -34,16 +34,18 @@ inline void require_sound(const TriangleMesh& mesh) {
 inline void read_mesh_bytes(MeshReader read, const std::string& name, const std::uint8_t* data,
                             std::size_t size) {
   const std::string content(data, data + size), path = "/onmesh-no-such-folder/" + name;
-  std::vector<std::string> warnings;
+  ReadReport report;
   succeeds([&] {
     try {
-      require_sound(read(path, content, &warnings));
+      require_sound(read(path, content, {}, report));
     } catch (const InputError& error) {
       require(std::string(error.what()).starts_with(path), "an error does not name the file");
       throw;
     }
   });
-  for (const std::string& warning : warnings) require_line(warning);
+  for (const auto* lines : {&report.warnings, &report.read, &report.ignored, &report.assumed}) {
+    for (const std::string& line : *lines) require_line(line);
+  }
 }
 
 }  // namespace onmesh::fuzz

@@ -104,9 +104,9 @@ TEST_CASE("textures of real meshes are found", "[mesh_io][data]") {
         "kenney_flag/flag.obj", "spider/spider.obj", "cup_scan/textured-0008192.obj",
         "armchair/armchair.obj", "bell_pepper/bell_pepper.obj", "box_textured/box_textured.obj"}) {
     INFO(file);
-    std::vector<std::string> warnings;
-    const TriangleMesh mesh = read_mesh(folder / file, &warnings);
-    CHECK(warnings.empty());
+    ReadReport read;
+    const TriangleMesh mesh = read_mesh(folder / file, &read);
+    CHECK(read.warnings.empty());
     CHECK_FALSE(mesh.materials.empty());
     for (const Material& m : mesh.materials) CHECK(std::filesystem::is_regular_file(m.texture));
   }

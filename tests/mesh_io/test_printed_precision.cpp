@@ -84,14 +84,15 @@ TEST_CASE("round numbers are no evidence of floats", "[precision]") {
 }
 
 TEST_CASE("readers note the precision", "[precision]") {
-  CHECK(read_obj("a.obj", "v 0 0 0.125\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", nullptr).precision.step(1) ==
-        1e-3);
+  ReadReport unwanted;
+  CHECK(read_obj("a.obj", "v 0 0 0.125\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {}, unwanted)
+            .precision.step(1) == 1e-3);
   const std::string head =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
       "property float y\nproperty float z\nelement face 1\n"
       "property list uchar int vertex_indices\nend_header\n";
-  CHECK(read_ply("a.ply", head + "0 0 0.25\n1 0 0\n0 1 0\n3 0 1 2\n", nullptr).precision.step(1) ==
-        0.01);
+  CHECK(read_ply("a.ply", head + "0 0 0.25\n1 0 0\n0 1 0\n3 0 1 2\n", {}, unwanted)
+            .precision.step(1) == 0.01);
 }
 
 }  // namespace

@@ -112,14 +112,14 @@ TEST_CASE("the content decides where it contradicts the extension", "[read_mesh]
   for (const auto& [name, content] : small_files()) {
     for (const std::string other : {"x.obj", "x.ply", "x.off", "x.stl", "x", "x.dat", "x.OBJ"}) {
       INFO(name << " as " << other);
-      std::vector<std::string> warnings;
-      CHECK_FALSE(read_mesh(folder.file(other, content), &warnings).faces.empty());
+      ReadReport report;
+      CHECK_FALSE(read_mesh(folder.file(other, content), &report).faces.empty());
     }
   }
-  std::vector<std::string> warnings;
-  read_mesh(folder.file("x.obj", small_files()[1].second), &warnings);
-  REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0], Contains("read as PLY"));
+  ReadReport report;
+  read_mesh(folder.file("x.obj", small_files()[1].second), &report);
+  REQUIRE(report.warnings.size() == 1);
+  CHECK_THAT(report.warnings[0], Contains("read as PLY"));
 }
 
 TEST_CASE("what is no mesh is refused by the right kind of error", "[read_mesh]") {

@@ -17,8 +17,9 @@ namespace {
 
 const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
 
-TriangleMesh parse(const std::string& content, std::vector<std::string>* warnings = nullptr) {
-  return read_obj("m.obj", content, warnings);
+TriangleMesh parse(const std::string& content, ReadReport* report = nullptr) {
+  ReadReport unwanted;
+  return read_obj("m.obj", content, {}, report != nullptr ? *report : unwanted);
 }
 
 std::string error_of(const std::string& content) {
@@ -150,12 +151,12 @@ TEST_CASE("a bad OBJ is refused with file and line", "[read_obj]") {
 }
 
 TEST_CASE("a UV that is not finite costs only its own corners", "[read_obj]") {
-  std::vector<std::string> warnings;
-  const TriangleMesh mesh = parse(kSquare + "vt nan 0\nf 1/1 2/2 3/3\nf 1/1 3/3 4/5\n", &warnings);
+  ReadReport report;
+  const TriangleMesh mesh = parse(kSquare + "vt nan 0\nf 1/1 2/2 3/3\nf 1/1 3/3 4/5\n", &report);
   CHECK(mesh.has_uvs(0));
   CHECK(mesh.face_uvs[1] == Face{0, 2, kNone});
-  REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0], StartsWith("m.obj: 1 texture coordinates are not finite"));
+  REQUIRE(report.warnings.size() == 1);
+  CHECK_THAT(report.warnings[0], StartsWith("m.obj: 1 texture coordinates are not finite"));
 }
 
 TEST_CASE("materials stay apart, wherever their library is named", "[read_obj]") {
@@ -168,9 +169,9 @@ TEST_CASE("materials stay apart, wherever their library is named", "[read_obj]")
       "m.obj", kSquare +
                    "f 1 2 3\nusemtl red wall\nf 1 2 3\nmtllib some lib.mtl\nusemtl plain\nf 1 2 3\n"
                    "usemtl unknown\nf 1 2 3\nusemtl red wall\t\nf 1 2 3\n");
-  std::vector<std::string> warnings;
-  const TriangleMesh mesh = read_mesh(path, &warnings);
-  CHECK(warnings.empty());
+  ReadReport report;
+  const TriangleMesh mesh = read_mesh(path, &report);
+  CHECK(report.warnings.empty());
   REQUIRE(mesh.materials.size() == 3);
   CHECK(mesh.materials[0].name == "red wall");
   CHECK(mesh.materials[0].texture == (folder.path() / "red.png").string());
@@ -186,12 +187,12 @@ TEST_CASE("several libraries on a line are all read, a missing one is only a war
   folder.file("sub/b.mtl", "newmtl b\nmap_Kd b.png\n");
   const auto path = folder.file("m.obj", "mtllib a.mtl sub\\b.mtl none.mtl\n" + kSquare +
                                              "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
-  std::vector<std::string> warnings;
-  const TriangleMesh mesh = read_mesh(path, &warnings);
+  ReadReport report;
+  const TriangleMesh mesh = read_mesh(path, &report);
   CHECK(mesh.materials[0].texture == (folder.path() / "a.png").string());
   CHECK(mesh.materials[1].texture == (folder.path() / "sub/b.png").string());
-  REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0], Contains("none.mtl"));
+  REQUIRE(report.warnings.size() == 1);
+  CHECK_THAT(report.warnings[0], Contains("none.mtl"));
 }
 
 TEST_CASE("map_Kd finds its file behind options, spaces, backslashes and foreign folders",

@@ -11,7 +11,10 @@ using Face = std::array<Index, 3>;
 
 namespace {
 
-TriangleMesh parse(const std::string& content) { return read_off("m", content, nullptr); }
+TriangleMesh parse(const std::string& content) {
+  ReadReport unwanted;
+  return read_off("m", content, {}, unwanted);
+}
 
 const std::string kTriangle = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 

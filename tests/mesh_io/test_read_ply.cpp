@@ -15,8 +15,9 @@ using Face = std::array<Index, 3>;
 
 namespace {
 
-TriangleMesh parse(const std::string& content, std::vector<std::string>* warnings = nullptr) {
-  return read_ply("m.ply", content, warnings);
+TriangleMesh parse(const std::string& content, ReadReport* report = nullptr) {
+  ReadReport unwanted;
+  return read_ply("m.ply", content, {}, report != nullptr ? *report : unwanted);
 }
 
 std::string error_of(const std::string& content) {
@@ -140,8 +141,8 @@ TEST_CASE("PLY UVs come under several names, or per corner with a texture number
                          "property int texnumber\n",
                      kSquare + "4 0 1 2 3 8 0 0 .5 0 .5 .5 0 .5 1\n3 0 1 2 0 0\n3 0 1 2 6 0 0 1 0 "
                                "nan 1 -1\n3 2 1 0 6 .1 .2 .3 .4 .5 .6 0\n"));
-  std::vector<std::string> warnings;
-  const TriangleMesh mesh = read_mesh(path, &warnings);
+  ReadReport report;
+  const TriangleMesh mesh = read_mesh(path, &report);
   REQUIRE(mesh.faces.size() == 5);
   CHECK(mesh.face_materials == std::vector<Index>{1, 1, 0, kNone, 0});
   CHECK(mesh.materials[0].texture == (folder.path() / "a b.png").string());
@@ -150,7 +151,7 @@ TEST_CASE("PLY UVs come under several names, or per corner with a texture number
   CHECK_FALSE(mesh.has_uvs(2));
   CHECK_FALSE(mesh.has_uvs(3));
   CHECK(mesh.uv({4, {1, 0, 0}}) == Vec2(0.1, 0.2));
-  CHECK(warnings.size() == 1);
+  CHECK(report.warnings.size() == 1);
 }
 
 TEST_CASE("a PLY file may have its faces before its vertices", "[read_ply]") {

@@ -13,7 +13,10 @@ using Face = std::array<Index, 3>;
 
 namespace {
 
-TriangleMesh parse(const std::string& content) { return read_stl("m", content, nullptr); }
+TriangleMesh parse(const std::string& content) {
+  ReadReport unwanted;
+  return read_stl("m", content, {}, unwanted);
+}
 
 std::string binary_stl(const std::string& header, const std::vector<std::array<float, 9>>& facets) {
   std::string out = header + std::string(80 - header.size(), ' ');

@@ -30,9 +30,9 @@ TEST_CASE("a written OBJ reads back bit for bit", "[write_obj]") {
   }
   const auto path = folder.path() / "out.obj";
   write_obj(path, mesh);
-  std::vector<std::string> warnings;
-  const TriangleMesh back = read_mesh(path, &warnings);
-  CHECK(warnings.empty());
+  ReadReport report;
+  const TriangleMesh back = read_mesh(path, &report);
+  CHECK(report.warnings.empty());
   REQUIRE(back.positions.size() == mesh.positions.size());
   for (std::size_t i = 0; i < 300; ++i) {
     for (int k = 0; k < 3; ++k)
@@ -68,9 +68,9 @@ TEST_CASE("names that an OBJ would take for something else keep their faces", "[
   for (const char* name : {"out.obj", "-out.obj", "# out.obj"}) {
     INFO(name);
     write_obj(folder.path() / name, mesh);
-    std::vector<std::string> warnings;
-    const TriangleMesh back = read_mesh(folder.path() / name, &warnings);
-    CHECK(warnings.empty());
+    ReadReport report;
+    const TriangleMesh back = read_mesh(folder.path() / name, &report);
+    CHECK(report.warnings.empty());
     CHECK(back.faces.size() == 4);
     CHECK(back.face_materials == mesh.face_materials);
     REQUIRE(back.materials.size() == 4);

@@ -3,21 +3,22 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "onmesh/base/error.h"
 #include "onmesh/mesh/triangle_mesh.h"
+#include "onmesh/mesh_io/reading.h"
 
 namespace onmesh {
 
 /// A reader of one mesh format, given the file's content.
 using MeshReader = TriangleMesh (*)(const std::filesystem::path& path, const std::string& content,
-                                    std::vector<std::string>* warnings);
+                                    const ReadOptions& options, ReadReport& report);
 
 /// The message of the InputError for that content in a file called `name`; "no error" if it reads.
 inline std::string error_of(MeshReader read, const std::string& name, const std::string& content) {
+  ReadReport unwanted;
   try {
-    read(name, content, nullptr);
+    read(name, content, {}, unwanted);
   } catch (const InputError& error) {
     return error.what();
   }

@@ -1,15 +1,10 @@
 // Looking a texture up at UVs.
 #pragma once
 
+#include "onmesh/base/wrap.h"
 #include "onmesh/image/image.h"
 
 namespace onmesh {
-
-/// How UVs outside [0,1] are read.
-enum class Wrap {
-  repeat,  ///< the texture repeats in every tile
-  clamp,   ///< the texture's border goes on
-};
 
 /// Bilinear look-up at a UV: texel (i, j) has its centre at u = (i + .5) / W, v = 1 - (j + .5) / H.
 ///

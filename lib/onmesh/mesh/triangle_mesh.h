@@ -1,9 +1,12 @@
 // A triangle mesh with a UV per face corner, as plain arrays.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "onmesh/base/wrap.h"
 #include "onmesh/mesh/coordinate_precision.h"
 #include "onmesh/mesh/surface_point.h"
 
@@ -13,6 +16,9 @@ namespace onmesh {
 struct Material {
   std::string name;     ///< as the file has it
   std::string texture;  ///< image path, resolved against the material file; empty if there is none
+  std::optional<WrapModes> wrap;  ///< how the texture is read beyond [0,1]; none = nobody says
+  /// What the texture's file holds if it is inside the mesh file; `texture` is only a name then.
+  std::shared_ptr<const std::string> content;
 };
 
 /// Positions and UVs are indexed apart: position indices give connectivity, UV indices stay per

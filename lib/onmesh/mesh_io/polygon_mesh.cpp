@@ -8,8 +8,7 @@
 
 namespace onmesh {
 
-void drop_missing_uvs(PolygonMesh& polygons, const std::string& file,
-                      std::vector<std::string>* warnings) {
+void drop_missing_uvs(PolygonMesh& polygons, const std::string& file, ReadReport& report) {
   std::vector<Vec2>& uvs = polygons.mesh.uvs;
   const auto missing =
       std::count_if(uvs.begin(), uvs.end(), [](const Vec2& uv) { return !uv.allFinite(); });
@@ -20,9 +19,8 @@ void drop_missing_uvs(PolygonMesh& polygons, const std::string& file,
   for (Vec2& uv : uvs) {
     if (!uv.allFinite()) uv.setZero();
   }
-  if (!warnings) return;
-  warnings->push_back(file + ": " + std::to_string(missing) +
-                      " texture coordinates are not finite and count as missing");
+  report.warnings.push_back(file + ": " + std::to_string(missing) +
+                            " texture coordinates are not finite and count as missing");
 }
 
 TriangleMesh triangulate(PolygonMesh polygons, const std::string& file) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "onmesh/mesh/triangle_mesh.h"
+#include "onmesh/mesh_io/reading.h"
 
 namespace onmesh {
 
@@ -29,9 +30,8 @@ struct PolygonMesh {
 
 /// UVs that are not finite count as missing: corners have none then, and the UVs become zero. One
 /// bad UV must not cost the whole mesh.
-/// \param warnings if given, receives a line that names `file` and how many there were
-void drop_missing_uvs(PolygonMesh& polygons, const std::string& file,
-                      std::vector<std::string>* warnings);
+/// \param report receives a warning that names `file` and how many there were
+void drop_missing_uvs(PolygonMesh& polygons, const std::string& file, ReadReport& report);
 
 /// Triangles in the order of the polygons; corners keep their UVs.
 /// \pre every polygon has at least three corners, all within the positions and UVs

@@ -60,7 +60,9 @@ std::optional<MeshFormat> format_of_content(const std::string& content) {
 
 }  // namespace
 
-TriangleMesh read_mesh(const fs::path& path, std::vector<std::string>* warnings) {
+TriangleMesh read_mesh(const fs::path& path, ReadReport* report, const ReadOptions& options) {
+  ReadReport unwanted;
+  ReadReport& told = report != nullptr ? *report : unwanted;
   const std::string content = read_file(path);
   if (content.empty()) throw InputError(path.string() + ": is empty");
   const auto expected = format_of_extension(path);
@@ -69,22 +71,23 @@ TriangleMesh read_mesh(const fs::path& path, std::vector<std::string>* warnings)
     throw InputError(path.string() + ": is no mesh that can be read (OBJ, PLY, OFF or STL)");
   }
   const MeshFormat format = found.value_or(expected.value_or(MeshFormat::obj));
-  if (expected && format != *expected && warnings) {
+  if (expected && format != *expected) {
     constexpr std::array<const char*, 4> names = {"OBJ", "PLY", "OFF", "STL"};
-    warnings->push_back(path.string() + ": is read as " + names[static_cast<std::size_t>(format)] +
-                        ", which it holds in spite of its name");
+    told.warnings.push_back(path.string() + ": is read as " +
+                            names[static_cast<std::size_t>(format)] +
+                            ", which it holds in spite of its name");
   }
   switch (format) {
     case MeshFormat::obj:
-      return read_obj(path, content, warnings);
+      return read_obj(path, content, options, told);
     case MeshFormat::ply:
-      return read_ply(path, content, warnings);
+      return read_ply(path, content, options, told);
     case MeshFormat::off:
-      return read_off(path, content, warnings);
+      return read_off(path, content, options, told);
     case MeshFormat::stl:
       break;
   }
-  return read_stl(path, content, warnings);
+  return read_stl(path, content, options, told);
 }
 
 }  // namespace onmesh

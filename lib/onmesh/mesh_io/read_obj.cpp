@@ -24,10 +24,10 @@ constexpr std::uintmax_t kLargestMaterialFile = std::uintmax_t{64} << 20;
 
 class ObjReader {
  public:
-  ObjReader(const fs::path& path, const std::string& content, std::vector<std::string>* warnings)
+  ObjReader(const fs::path& path, const std::string& content, ReadReport& report)
       : path_(path),
         scan_(content, path.string(), Syntax::comments_continuations),
-        warnings_(warnings) {
+        report_(report) {
     if (content.find('\0') != std::string::npos) {
       throw InputError(path.string() + ": is a binary file, not an OBJ");
     }
@@ -55,15 +55,13 @@ class ObjReader {
     }
     check_forward_references();
     read_libraries();
-    drop_missing_uvs(out_, path_.string(), warnings_);
+    drop_missing_uvs(out_, path_.string(), report_);
     out_.mesh.precision = precision_.result();
     return triangulate(std::move(out_), path_.string());
   }
 
  private:
-  void warn(const std::string& text) {
-    if (warnings_) warnings_->push_back(path_.string() + ": " + text);
-  }
+  void warn(const std::string& text) { report_.warnings.push_back(path_.string() + ": " + text); }
 
   void read_position() {
     Vec3 p;
@@ -189,7 +187,7 @@ class ObjReader {
 
   fs::path path_;
   TextScan scan_;
-  std::vector<std::string>* warnings_;
+  ReadReport& report_;
   PolygonMesh out_;
   PrintedPrecision precision_;
   std::vector<Forward> forward_;
@@ -201,8 +199,8 @@ class ObjReader {
 }  // namespace
 
 TriangleMesh read_obj(const fs::path& path, const std::string& content,
-                      std::vector<std::string>* warnings) {
-  return ObjReader(path, content, warnings).run();
+                      const ReadOptions& /*options*/, ReadReport& report) {
+  return ObjReader(path, content, report).run();
 }
 
 }  // namespace onmesh

@@ -104,13 +104,13 @@ void read_faces(TextScan& scan, const OffHeader& header, PolygonMesh& out) {
 }  // namespace
 
 TriangleMesh read_off(const std::filesystem::path& path, const std::string& content,
-                      std::vector<std::string>* warnings) {
+                      const ReadOptions& /*options*/, ReadReport& report) {
   TextScan scan(content, path.string(), Syntax::comments);
   const OffHeader header = read_header(scan);
   PolygonMesh out;
   read_vertices(scan, header, out);
   read_faces(scan, header, out);
-  drop_missing_uvs(out, path.string(), warnings);
+  drop_missing_uvs(out, path.string(), report);
   return triangulate(std::move(out), path.string());
 }
 

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "onmesh/mesh/triangle_mesh.h"
+#include "onmesh/mesh_io/reading.h"
 
 namespace onmesh {
 
@@ -15,6 +15,6 @@ namespace onmesh {
 /// \param warnings if given, receives one line per thing that was ignored or repaired
 /// \throw InputError naming the file and what is wrong with it
 TriangleMesh read_off(const std::filesystem::path& path, const std::string& content,
-                      std::vector<std::string>* warnings);
+                      const ReadOptions& options, ReadReport& report);
 
 }  // namespace onmesh

@@ -20,9 +20,8 @@ namespace {
 template <class Values>
 class PlyReader {
  public:
-  PlyReader(Values values, const PlyHeader& header, std::string file,
-            std::vector<std::string>* warnings)
-      : values_(std::move(values)), header_(header), file_(std::move(file)), warnings_(warnings) {}
+  PlyReader(Values values, const PlyHeader& header, std::string file, ReadReport& report)
+      : values_(std::move(values)), header_(header), file_(std::move(file)), report_(report) {}
 
   PolygonMesh run() {
     bool has_faces = false;
@@ -219,7 +218,7 @@ class PlyReader {
         uv = out_.corners[i];
       }
     }
-    drop_missing_uvs(out_, file_, warnings_);
+    drop_missing_uvs(out_, file_, report_);
   }
 
   static constexpr Index kPerCorner = kNone - 1;  // has a UV of its own, in corner_uvs_
@@ -227,7 +226,7 @@ class PlyReader {
   Values values_;
   const PlyHeader& header_;
   std::string file_;
-  std::vector<std::string>* warnings_;
+  ReadReport& report_;
   PolygonMesh out_;
   std::vector<Vec2> corner_uvs_;
   bool vertices_known_ = false;
@@ -237,14 +236,14 @@ class PlyReader {
 }  // namespace
 
 TriangleMesh read_ply(const std::filesystem::path& path, const std::string& content,
-                      std::vector<std::string>* warnings) {
+                      const ReadOptions& /*options*/, ReadReport& report) {
   const std::string file = path.string();
   const PlyHeader header = read_ply_header(content, file);
   PolygonMesh polygons;
   if (header.format == PlyFormat::ascii) {
-    polygons = PlyReader(PlyTextValues(content, header, file), header, file, warnings).run();
+    polygons = PlyReader(PlyTextValues(content, header, file), header, file, report).run();
   } else {
-    polygons = PlyReader(PlyBinaryValues(content, header, file), header, file, warnings).run();
+    polygons = PlyReader(PlyBinaryValues(content, header, file), header, file, report).run();
   }
   for (const std::string& texture : header.textures) {
     polygons.mesh.materials.push_back({texture, find_texture(texture, path.parent_path())});

@@ -78,7 +78,7 @@ void read_text(const std::string& content, const std::string& file, PolygonMesh&
 }
 
 void read_binary(const std::string& content, const std::string& file, PolygonMesh& out,
-                 std::vector<std::string>* warnings) {
+                 ReadReport& report) {
   if (content.size() < kHeaderSize) throw InputError(file + ": is not an STL file (too short)");
   const std::size_t facets = from_bytes<std::uint32_t>(content.data() + 80, std::endian::little);
   const std::size_t held = (content.size() - kHeaderSize) / kFacetSize;
@@ -86,8 +86,8 @@ void read_binary(const std::string& content, const std::string& file, PolygonMes
     throw InputError(file + ": promises " + std::to_string(facets) + " facets, the file holds " +
                      std::to_string(held) + " (cut off, or no STL)");
   }
-  if (content.size() != kHeaderSize + kFacetSize * facets && warnings) {
-    warnings->push_back(file + ": bytes behind the last facet are ignored");
+  if (content.size() != kHeaderSize + kFacetSize * facets) {
+    report.warnings.push_back(file + ": bytes behind the last facet are ignored");
   }
   if (facets > kNone / 3) throw InputError(file + ": has more vertices than 32 bits can count");
   out.mesh.precision.single = true;
@@ -118,12 +118,12 @@ bool is_binary_stl(const std::string& content) {
 }
 
 TriangleMesh read_stl(const std::filesystem::path& path, const std::string& content,
-                      std::vector<std::string>* warnings) {
+                      const ReadOptions& /*options*/, ReadReport& report) {
   PolygonMesh out;
   if (is_text(content)) {
     read_text(content, path.string(), out);
   } else {
-    read_binary(content, path.string(), out, warnings);
+    read_binary(content, path.string(), out, report);
   }
   return triangulate(std::move(out), path.string());
 }

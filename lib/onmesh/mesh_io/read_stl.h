@@ -3,9 +3,9 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "onmesh/mesh/triangle_mesh.h"
+#include "onmesh/mesh_io/reading.h"
 
 namespace onmesh {
 
@@ -18,6 +18,6 @@ bool is_binary_stl(const std::string& content);
 /// \param warnings if given, receives one line per thing that was ignored or repaired
 /// \throw InputError naming the file and what is wrong with it
 TriangleMesh read_stl(const std::filesystem::path& path, const std::string& content,
-                      std::vector<std::string>* warnings);
+                      const ReadOptions& options, ReadReport& report);
 
 }  // namespace onmesh
