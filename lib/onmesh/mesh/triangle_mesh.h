@@ -16,9 +16,10 @@ namespace onmesh {
 struct Material {
   std::string name;     ///< as the file has it
   std::string texture;  ///< image path, resolved against the material file; empty if there is none
-  std::optional<WrapModes> wrap;  ///< how the texture is read beyond [0,1]; none = nobody says
+  /// How the texture is read beyond [0,1]; none = nobody says.
+  std::optional<WrapModes> wrap = std::nullopt;
   /// What the texture's file holds if it is inside the mesh file; `texture` is only a name then.
-  std::shared_ptr<const std::string> content;
+  std::shared_ptr<const std::string> content = nullptr;
 };
 
 /// Positions and UVs are indexed apart: position indices give connectivity, UV indices stay per
