@@ -29,6 +29,13 @@ inline void require_sound(const TriangleMesh& mesh) {
   for (const Vec2& uv : mesh.uvs) require(uv.allFinite(), "a UV is not finite");
 }
 
+/// All that a reader tells is in lines.
+inline void require_lines(const ReadReport& report) {
+  for (const auto* lines : {&report.warnings, &report.read, &report.ignored, &report.assumed}) {
+    for (const std::string& line : *lines) require_line(line);
+  }
+}
+
 /// Read the bytes as a file of that name in a folder that does not exist, so that files beside it,
 /// which the bytes may name, do not either.
 inline void read_mesh_bytes(MeshReader read, const std::string& name, const std::uint8_t* data,
@@ -43,9 +50,7 @@ inline void read_mesh_bytes(MeshReader read, const std::string& name, const std:
       throw;
     }
   });
-  for (const auto* lines : {&report.warnings, &report.read, &report.ignored, &report.assumed}) {
-    for (const std::string& line : *lines) require_line(line);
-  }
+  require_lines(report);
 }
 
 }  // namespace onmesh::fuzz

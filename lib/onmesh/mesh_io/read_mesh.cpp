@@ -10,6 +10,7 @@
 #include "onmesh/base/file_io.h"
 #include "onmesh/base/text.h"
 #include "onmesh/base/text_scan.h"
+#include "onmesh/mesh_io/gltf/read_gltf.h"
 #include "onmesh/mesh_io/read_obj.h"
 #include "onmesh/mesh_io/read_off.h"
 #include "onmesh/mesh_io/read_ply.h"
@@ -19,7 +20,7 @@ namespace onmesh {
 namespace fs = std::filesystem;
 namespace {
 
-enum class MeshFormat { obj, ply, off, stl };
+enum class MeshFormat { obj, ply, off, stl, gltf };
 
 std::optional<MeshFormat> format_of_extension(const fs::path& path) {
   const std::string extension = lower_case(path.extension().string());
@@ -27,11 +28,13 @@ std::optional<MeshFormat> format_of_extension(const fs::path& path) {
   if (extension == ".ply") return MeshFormat::ply;
   if (extension == ".off") return MeshFormat::off;
   if (extension == ".stl") return MeshFormat::stl;
+  if (extension == ".gltf" || extension == ".glb") return MeshFormat::gltf;
   return std::nullopt;
 }
 
 /// What the content is, if it says so beyond doubt.
 std::optional<MeshFormat> format_of_content(const std::string& content) {
+  if (looks_like_gltf(content)) return MeshFormat::gltf;
   if (is_binary_stl(content)) return MeshFormat::stl;
   TextScan scan(content, {}, Syntax::comments);
   const std::string_view first = scan.token_anywhere();
@@ -68,11 +71,11 @@ TriangleMesh read_mesh(const fs::path& path, ReadReport* report, const ReadOptio
   const auto expected = format_of_extension(path);
   const auto found = format_of_content(content);
   if (!expected && !found) {
-    throw InputError(path.string() + ": is no mesh that can be read (OBJ, PLY, OFF or STL)");
+    throw InputError(path.string() + ": is no mesh that can be read (OBJ, PLY, OFF, STL or glTF)");
   }
   const MeshFormat format = found.value_or(expected.value_or(MeshFormat::obj));
   if (expected && format != *expected) {
-    constexpr std::array<const char*, 4> names = {"OBJ", "PLY", "OFF", "STL"};
+    constexpr std::array<const char*, 5> names = {"OBJ", "PLY", "OFF", "STL", "glTF"};
     told.warnings.push_back(path.string() + ": is read as " +
                             names[static_cast<std::size_t>(format)] +
                             ", which it holds in spite of its name");
@@ -82,6 +85,8 @@ TriangleMesh read_mesh(const fs::path& path, ReadReport* report, const ReadOptio
       return read_obj(path, content, options, told);
     case MeshFormat::ply:
       return read_ply(path, content, options, told);
+    case MeshFormat::gltf:
+      return read_gltf(path, content, options, told);
     case MeshFormat::off:
       return read_off(path, content, options, told);
     case MeshFormat::stl:

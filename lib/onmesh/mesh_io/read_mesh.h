@@ -1,4 +1,4 @@
-// Reading meshes: OBJ with MTL, PLY, OFF and STL, validated.
+// Reading meshes: OBJ with MTL, PLY, OFF, STL and glTF, validated.
 #pragma once
 
 #include <filesystem>

@@ -1,0 +1,47 @@
+// The images of a glTF file (internal).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "onmesh/base/wrap.h"
+#include "onmesh/mesh_io/gltf/gltf_file.h"
+
+namespace onmesh {
+
+/// Where an image is kept.
+enum class GltfImagePlace { file, data_uri, buffer_view };
+
+/// The images, by their numbers. Those inside the file have names as if they were in a folder of
+/// its name: "scene.glb/wood.png", each another unless their buffer view is the same.
+class GltfImages {
+ public:
+  explicit GltfImages(GltfFile& file);
+
+  std::size_t size() const { return names_.size(); }
+  GltfImagePlace place(Index image) const { return places_[image]; }
+  /// The path of the image's file; of one inside this file a name.
+  const std::string& name(Index image) const { return names_[image]; }
+  /// What an image inside this file holds; null for a file.
+  /// \throw InputError naming the image
+  std::shared_ptr<const std::string> content(Index image);
+
+ private:
+  GltfFile& file_;
+  std::vector<GltfImagePlace> places_;
+  std::vector<std::string> names_;
+  std::vector<std::shared_ptr<const std::string>> contents_;
+};
+
+/// A texture of a material's slot (3.9.2).
+struct GltfTexture {
+  Index image = kNone;
+  WrapModes wrap;
+};
+
+/// \param texture an element of "textures"
+/// \throw InputError naming the place
+GltfTexture describe_texture(const GltfFile& file, Index texture);
+
+}  // namespace onmesh

@@ -1,0 +1,280 @@
+#include "onmesh/mesh_io/write_gltf.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "onmesh/base/atomic_file.h"
+#include "onmesh/base/byte_order.h"
+#include "onmesh/base/error.h"
+#include "onmesh/base/file_io.h"
+#include "onmesh/base/text.h"
+#include "onmesh/mesh_io/gltf/gltf_file.h"
+#include "onmesh/mesh_io/gltf/images.h"
+#include "onmesh/mesh_io/gltf/replace_views.h"
+#include "onmesh/mesh_io/gltf/uri.h"
+
+namespace onmesh {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Bytes.
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{16} << 30;
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code none;
+  return fs::equivalent(a, b, none);
+}
+
+/// Members of the largest object: they are looked up one by one when their order is kept.
+std::size_t largest_object(const nlohmann::json& json) {
+  std::size_t largest = json.is_object() ? json.size() : 0;
+  if (json.is_structured()) {
+    for (const nlohmann::json& value : json) largest = std::max(largest, largest_object(value));
+  }
+  return largest;
+}
+
+/// The JSON with its members in their order.
+Json ordered(const GltfFile& file) {
+  constexpr std::size_t kMost = 10'000;
+  if (largest_object(file.root().value()) > kMost)
+    file.root().fail("an object with so many members is not written");
+  return Json::parse(file.json_text());
+}
+
+/// Blanks that lines one level below the first are indented by; -1 = all is one line.
+int indent_of(std::string_view json) {
+  const std::size_t line_end = json.find('\n');
+  if (line_end == std::string_view::npos || line_end + 1 >= json.size()) return -1;
+  const std::size_t text = json.find_first_not_of(" \t", line_end + 1);
+  if (text == std::string_view::npos) return -1;
+  return json[line_end + 1] == '\t' ? 2 : int(std::min<std::size_t>(text - line_end - 1, 8));
+}
+
+/// A GLB of the file's chunks, with other JSON and perhaps another binary one.
+std::string glb_of(const GltfFile& file, std::string json, const std::string* binary,
+                   const fs::path& path) {
+  const auto pad = [](std::string& bytes, char with) {
+    bytes.append((4 - bytes.size() % 4) % 4, with);
+  };
+  pad(json, ' ');
+  std::string glb = "glTF";
+  const auto word = [&](std::size_t value) {
+    append_bytes(glb, std::uint32_t(value), std::endian::little);
+  };
+  word(2);
+  word(0);  // the length, which comes in the end
+  for (const GlbChunk& chunk : file.chunks()) {
+    const bool is_first = &chunk == file.chunks().data();
+    std::string bytes(is_first ? std::string_view(json) : chunk.bytes);
+    const bool is_binary = &chunk == file.chunks().data() + 1 && chunk.type == kGlbBin;
+    if (is_binary && binary != nullptr) bytes = *binary;
+    pad(bytes, '\0');
+    word(bytes.size());
+    word(chunk.type);
+    glb += bytes;
+  }
+  if (glb.size() > std::numeric_limits<std::uint32_t>::max())
+    throw FileError(path.string() + ": a GLB cannot be larger than 4 GiB");
+  std::string length;
+  append_bytes(length, std::uint32_t(glb.size()), std::endian::little);
+  return glb.replace(8, 4, length);
+}
+
+/// The file that is written, and those that come with it.
+class GltfWriter {
+ public:
+  GltfWriter(const fs::path& path, const fs::path& source)
+      : path_(path),
+        source_(source),
+        content_(read_file(source)),
+        file_(source, content_, {}, report_),
+        images_(file_),
+        document_(ordered(file_)),
+        stays_(is_same_file(folder_of(path), folder_of(source))) {}
+
+  const char* extension() const { return file_.chunks().empty() ? ".gltf" : ".glb"; }
+  void replace(const std::vector<GltfImage>& images);
+  void move_files();
+  std::vector<fs::path> write();
+
+ private:
+  void replace_one(Index image, const std::string& content);
+  void put_beside(const JsonPlace& uri, Json& holder, std::string content);
+  std::vector<fs::path> named_files();
+  fs::path target_of(const std::string& uri);
+
+  fs::path path_, source_;
+  std::string content_;
+  ReadReport report_;
+  GltfFile file_;
+  GltfImages images_;
+  Json document_;
+  bool stays_;  ///< in its folder
+  std::map<Index, std::string> views_, buffers_;
+  std::set<Index> moved_images_;
+  std::map<fs::path, std::string> beside_;   ///< what is written beside the file
+  std::map<std::string, fs::path> targets_;  ///< where the file that a URI names goes
+};
+
+void GltfWriter::replace_one(Index image, const std::string& content) {
+  const JsonPlace place = file_.element("images", image);
+  Json& holder = document_["images"][image];
+  switch (images_.place(image)) {
+    case GltfImagePlace::buffer_view:
+      views_[place.index("bufferView", file_.root().size_of("bufferViews"))] = content;
+      break;
+    case GltfImagePlace::data_uri:
+      holder["uri"] = with_data(place.at("uri").text(), content);
+      break;
+    case GltfImagePlace::file:
+      put_beside(place.at("uri"), holder, content);
+      moved_images_.insert(image);
+      break;
+  }
+}
+
+void GltfWriter::replace(const std::vector<GltfImage>& images) {
+  for (const GltfImage& changed : images) {
+    bool is_known = false;
+    for (Index i = 0; i < images_.size(); ++i) {
+      if (images_.name(i) != changed.texture) continue;
+      replace_one(i, changed.content);
+      is_known = true;
+    }
+    if (!is_known) throw InputError(changed.texture + ": is no image of " + source_.string());
+  }
+  if (views_.empty()) return;
+  buffers_ = replace_views(file_, views_, document_);
+  for (const auto& [i, bytes] : buffers_) {
+    if (file_.is_in_chunk(i)) continue;
+    const JsonPlace uri = file_.element("buffers", i).at("uri");
+    Json& holder = document_["buffers"][i];
+    if (is_data_uri(uri.text()))
+      holder["uri"] = with_data(uri.text(), bytes);
+    else
+      put_beside(uri, holder, bytes);
+  }
+}
+
+/// The files that the source is made of.
+std::vector<fs::path> GltfWriter::named_files() {
+  std::vector<fs::path> files = {source_};
+  for (Index i = 0; i < images_.size(); ++i) {
+    if (images_.place(i) == GltfImagePlace::file) files.emplace_back(images_.name(i));
+  }
+  for (Index i = 0; i < file_.root().size_of("buffers"); ++i) {
+    const auto uri = file_.element("buffers", i).find("uri");
+    if (uri && !is_data_uri(uri->text())) files.push_back(file_.file_of(*uri));
+  }
+  return files;
+}
+
+/// Where the file goes that a URI names: to the same place beside the new file if that is below it
+/// and none of the old ones.
+fs::path GltfWriter::target_of(const std::string& uri) {
+  const auto [at, is_new] = targets_.try_emplace(uri);
+  if (!is_new) return at->second;
+  std::string decoded = percent_decoded(uri);
+  std::replace(decoded.begin(), decoded.end(), '\\', '/');
+  fs::path relative = fs::path(decoded).lexically_normal();
+  const bool is_below = relative.is_relative() && *relative.begin() != ".." &&
+                        decoded.find(':') == std::string::npos && relative.has_filename();
+  if (!is_below) relative = fs::path(decoded).filename();
+  const std::vector<fs::path> taken = named_files();
+  const auto is_free = [&](const fs::path& name) {
+    const fs::path target = folder_of(path_) / name;
+    return name != path_.filename() &&
+           std::none_of(taken.begin(), taken.end(),
+                        [&](const fs::path& file) { return is_same_file(file, target); }) &&
+           std::none_of(targets_.begin(), targets_.end(),
+                        [&](const auto& other) { return other.second == name; });
+  };
+  const std::string name = relative.filename().string();
+  for (int k = 0; !is_free(relative); ++k) {
+    relative.replace_filename(path_.stem().string() + "_" +
+                              (k == 0 ? "" : std::to_string(k) + "_") + name);
+  }
+  at->second = relative;
+  return relative;
+}
+
+void GltfWriter::put_beside(const JsonPlace& uri, Json& holder, std::string content) {
+  const fs::path before = fs::path(percent_decoded(uri.text())).lexically_normal();
+  const fs::path target = target_of(uri.text());
+  if (target != before) holder["uri"] = percent_encoded(target.generic_string());
+  beside_[target] = std::move(content);
+}
+
+/// In another folder the new file needs what it names.
+void GltfWriter::move_files() {
+  if (stays_) return;
+  for (Index i = 0; i < images_.size(); ++i) {
+    std::error_code none;
+    if (images_.place(i) != GltfImagePlace::file || moved_images_.contains(i) ||
+        !fs::is_regular_file(images_.name(i), none))
+      continue;
+    put_beside(file_.element("images", i).at("uri"), document_["images"][i],
+               read_named_file(images_.name(i), kLargestFile));
+  }
+  for (Index i = 0; i < file_.root().size_of("buffers"); ++i) {
+    const auto uri = file_.element("buffers", i).find("uri");
+    if (!uri || is_data_uri(uri->text()) || buffers_.contains(i)) continue;
+    put_beside(*uri, document_["buffers"][i], read_named_file(file_.file_of(*uri), kLargestFile));
+  }
+}
+
+std::vector<fs::path> GltfWriter::write() {
+  std::string json = document_.dump(indent_of(file_.json_text()));
+  const auto binary = buffers_.find(0);
+  const bool has_binary = binary != buffers_.end() && file_.is_in_chunk(0);
+  if (!file_.chunks().empty())
+    json = glb_of(file_, std::move(json), has_binary ? &binary->second : nullptr, path_);
+  std::vector<std::unique_ptr<AtomicFolder>> folders;
+  std::vector<std::unique_ptr<AtomicFile>> files;
+  std::vector<fs::path> written;
+  const auto add = [&](const fs::path& path, const std::string& content) {
+    files.push_back(std::make_unique<AtomicFile>(path));
+    write_file(files.back()->temporary(), content);
+  };
+  for (const auto& [name, content] : beside_) {
+    fs::path folder = folder_of(path_);
+    for (const fs::path& part : name.parent_path())
+      folders.push_back(std::make_unique<AtomicFolder>(folder /= part));
+    written.push_back(folder_of(path_) / name);
+    add(written.back(), content);
+  }
+  add(path_, json);
+  commit_all(files);
+  for (const auto& folder : folders) folder->keep();
+  return written;
+}
+
+}  // namespace
+
+bool is_gltf_name(const fs::path& path) {
+  const std::string extension = lower_case(path.extension().string());
+  return extension == ".gltf" || extension == ".glb";
+}
+
+std::vector<fs::path> write_gltf(const fs::path& path, const fs::path& source,
+                                 const std::vector<GltfImage>& images) {
+  if (is_same_file(path, source)) throw InputError(path.string() + ": is the file that was read");
+  GltfWriter writer(path, source);
+  if (lower_case(path.extension().string()) != writer.extension())
+    throw InputError(path.string() + ": is written as it was read, as " + writer.extension());
+  writer.replace(images);
+  writer.move_files();
+  return writer.write();
+}
+
+}  // namespace onmesh
