@@ -63,12 +63,11 @@ TEST_CASE("grey with alpha has two channels in PNG and TIFF", "[odd_pixels]") {
   }
 }
 
-TEST_CASE("a CMYK JPEG and a CMYK TIFF are read as RGB", "[odd_pixels]") {
+TEST_CASE("a CMYK TIFF is read as RGB", "[odd_pixels]") {
   const ImageFolder folder;
   OIIO::ImageSpec spec(16, 16, 4, OIIO::TypeDesc::UINT8);
   spec.channelnames = {"C", "M", "Y", "K"};
-  spec.attribute("tiff:PhotometricInterpretation", 5);
-  spec.attribute("oiio:ColorSpace", "CMYK");
+  spec.attribute("tiff:ColorSpace", "CMYK");
   write_by_library(folder / "a.tif", {spec});
   const Image image = read_image(folder / "a.tif");
   CHECK(image.channels == 3);

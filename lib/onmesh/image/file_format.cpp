@@ -254,6 +254,9 @@ OIIO::ImageSpec output_spec(const ImageFormat& format, const Image& image,
   if (is_mixed(types)) spec.channelformats.assign(types.begin(), types.end());
   spec.erase_attribute("oiio:UnassociatedAlpha");
   if (unassociated) spec.attribute("oiio:UnassociatedAlpha", 1);
+  // Else OpenImageIO writes what memory happens to hold; this is the format's own word for none.
+  if (format.name == "sgi" && spec.get_string_attribute("ImageDescription").empty())
+    spec.attribute("ImageDescription", "no name");
   choose_compression(spec, format, types);
   return spec;
 }
