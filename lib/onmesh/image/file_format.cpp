@@ -106,8 +106,9 @@ void choose_compression(OIIO::ImageSpec& spec, const ImageFormat& format,
 }
 
 /// Where the pixels lie in the plane, as far as the format tells.
-void place(const ImageWindows& windows, const ImageFormat& format, const OIIO::ImageSpec& was,
-           const OIIO::ImageOutput& output, OIIO::ImageSpec& spec) {
+void place_in_plane(const ImageWindows& windows, const ImageFormat& format,
+                    const OIIO::ImageSpec& was, const OIIO::ImageOutput& output,
+                    OIIO::ImageSpec& spec) {
   const PixelWindow &data = windows.data, &display = windows.display;
   const bool fits = output.supports("origin") &&
                     ((data.x >= 0 && data.y >= 0) || output.supports("negativeorigin"));
@@ -244,7 +245,7 @@ OIIO::ImageSpec output_spec(const ImageFormat& format, const Image& image,
       spec.tile_height = was.tile_height;
       spec.tile_depth = was.tile_depth;
     }
-    place(windows, format, was, output, spec);
+    place_in_plane(windows, format, was, output, spec);
   }
   spec.alpha_channel = image.alpha_channel;
   if (int(image.channel_names.size()) == image.channels)
