@@ -19,10 +19,11 @@ bool has_atlas_option(const Arguments& arguments);
 
 /// An atlas of one or several textures.
 struct Atlas {
-  TextureSet set;                ///< one without a path if a resolution was given
-  std::vector<Image> images;     ///< per texture; empty if a resolution was given
-  std::vector<TexelTile> tiles;  ///< per texture
-  TriangleMesh mesh;             ///< the mesh with UVs of each face's own tile
+  TextureSet set;                     ///< one without a path if a resolution was given
+  std::vector<Image> images;          ///< per texture; empty if a resolution was given
+  std::vector<TexelTile> tiles;       ///< per texture
+  TriangleMesh mesh;                  ///< the mesh with UVs of each face's own tile
+  std::vector<std::string> warnings;  ///< what is odd about the images' files
 
   std::vector<const Image*> image_pointers() const;
   /// Of the whole atlas, empty or not.

@@ -265,6 +265,7 @@ int run_distance(const Arguments& arguments) {
   if (request.needs_atlas) {
     const Atlas atlas = read_atlas(arguments, mesh, "atlas");
     warn(atlas.set.warnings);
+    warn(atlas.warnings);
     map = covered_map(input, atlas);
     if (arguments.has("texture")) {
       textures = name_outputs(atlas.set, arguments.text("texture"), ".exr");

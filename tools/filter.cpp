@@ -227,7 +227,7 @@ FilterInputs read_inputs(const Arguments& arguments, Stopwatch& watch) {
   inputs.warnings.insert(inputs.warnings.end(), inputs.set.warnings.begin(),
                          inputs.set.warnings.end());
   for (const SetTexture& texture : inputs.set.textures) {
-    inputs.images.push_back(read_texture(texture.path));
+    inputs.images.push_back(read_texture(texture.path, inputs.warnings));
     check_interrupted();
   }
   inputs.stages.push_back(stage("read texture", watch));

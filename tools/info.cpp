@@ -45,6 +45,7 @@ int run_info(const Arguments& arguments) {
     print_json(input, findings);
   } else {
     warn(input.read.warnings);
+    warn(findings.warnings);
     print_text(input, findings);
   }
   if (!arguments.flag("strict") || findings.problems.empty()) return 0;

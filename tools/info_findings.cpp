@@ -103,6 +103,7 @@ void examine_textures(const InputMesh& input, const Arguments& arguments, Findin
                                  : read_atlas(choose_textures(input.cleaned, {}), input.cleaned,
                                               wrap_of(arguments));
     findings.missing = atlas.set.warnings;
+    findings.warnings = atlas.warnings;
     check_interrupted();
     check_channels(atlas, findings);
     if (findings.refusal.empty()) findings.textures = measure(input, atlas, findings);

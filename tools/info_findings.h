@@ -31,6 +31,7 @@ struct Findings {
   std::vector<TextureFacts> textures;  ///< per material's image and UDIM tile
   NearBoundaries near;                 ///< boundaries within a texel of others
   std::vector<std::string> missing;    ///< what faces of some tiles lack, a line each
+  std::vector<std::string> warnings;   ///< what is odd about the textures' files
   std::optional<SeamError> seams;      ///< of several textures in all
   std::vector<std::string> advice;
   std::vector<std::string> problems;  ///< short fixed names of what --strict minds

@@ -175,6 +175,7 @@ void print_json(const InputMesh& input, const Findings& findings) {
   json["near_boundary_edges"] = findings.near.edges;
   json["seams"] = findings.seams ? to_json(*findings.seams) : nlohmann::json();
   json["warnings"] = input.read.warnings;
+  for (const std::string& warning : findings.warnings) json["warnings"].push_back(warning);
   json["advice"] = findings.advice;
   json["problems"] = findings.problems;
   json["filterable"] = findings.refusal.empty();

@@ -199,6 +199,7 @@ int run_map(const Arguments& arguments) {
   Atlas atlas = read_atlas(arguments, input.cleaned);
   atlas.images = {};
   warn(atlas.set.warnings);
+  warn(atlas.warnings);
   const OutputNames outputs = name_outputs(atlas.set, output, ".exr");
   std::optional<AtomicFolder> folder;
   if (!outputs.folder.empty()) folder.emplace(outputs.folder);

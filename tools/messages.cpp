@@ -89,9 +89,16 @@ QuietLibraries::~QuietLibraries() {
   silence.before = -1;
 }
 
-Image read_texture(const std::filesystem::path& path) {
+Image read_texture(const std::filesystem::path& path, std::vector<std::string>& warnings) {
   const QuietLibraries quiet;
-  return read_image(path);
+  return read_image(path, &warnings);
+}
+
+Image read_texture(const std::filesystem::path& path) {
+  std::vector<std::string> warnings;
+  Image image = read_texture(path, warnings);
+  warn(warnings);
+  return image;
 }
 
 ProgressBar::ProgressBar(bool quiet) : state_(std::make_unique<State>()) {

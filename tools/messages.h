@@ -25,7 +25,10 @@ class QuietLibraries {
   QuietLibraries& operator=(const QuietLibraries&) = delete;
 };
 
-/// read_image() in silence.
+/// read_image() without what libraries print.
+/// \param warnings receives what is odd about the file
+Image read_texture(const std::filesystem::path& path, std::vector<std::string>& warnings);
+/// The same; what is odd is said at once.
 Image read_texture(const std::filesystem::path& path);
 
 /// A progress bar on stderr while it lives: only on a terminal, at most ten times a second, wiped

@@ -74,6 +74,7 @@ Plan make_plan(const Arguments& arguments, const TriangleMesh& mesh) {
   if (by_texels || has_atlas_option(arguments) || arguments.has("material")) {
     Atlas atlas = read_atlas(arguments, mesh);
     warn(atlas.set.warnings);
+    warn(atlas.warnings);
     for (const Index tile : atlas.set.tile_of_face) plan.options.faces.push_back(tile != kNone);
     plan.map = atlas.map();
     plan.mesh = std::move(atlas.mesh);

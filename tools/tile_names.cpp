@@ -120,8 +120,8 @@ fs::path fill_placeholders(const std::string& output, const fs::path& texture,
 
 bool is_image_name(const fs::path& path) {
   const std::string extension = lower_case(path.extension().string());
-  for (const char* known : {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".tga", ".bmp",
-                            ".ppm", ".pgm", ".pbm", ".pfm", ".sgi", ".rgb", ".hdr"}) {
+  for (const char* known : {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".webp", ".tga",
+                            ".bmp", ".ppm", ".pgm", ".pbm", ".pfm", ".sgi", ".rgb", ".hdr"}) {
     if (extension == known) return true;
   }
   return false;

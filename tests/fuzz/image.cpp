@@ -1,46 +1,15 @@
 // The first byte of an input chooses the file's extension, the others are its content.
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <string>
+#include <vector>
 
 #include "fuzz/image_extensions.h"
 #include "fuzz/input.h"
 #include "fuzz/target.h"
 #include "onmesh/image/image_io.h"
-#include "support/temp_folder.h"
 
 using namespace onmesh;
 
 namespace {
-
-/// A file in memory. Links with all extensions lead to it, since libraries take names only.
-class MemoryFile {
- public:
-  MemoryFile() : file_(::memfd_create("onmesh-fuzz", MFD_CLOEXEC)) {
-    fuzz::require(file_ >= 0, "there are no files in memory");
-    for (const char* const extension : fuzz::kImageExtensions) {
-      std::filesystem::create_symlink("/proc/self/fd/" + std::to_string(file_), link(extension));
-    }
-  }
-  ~MemoryFile() { ::close(file_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-
-  std::filesystem::path link(const char* extension) const {
-    return folder_.path() / (std::string("fuzz.") + extension);
-  }
-  void write(const std::string& content) const {
-    const bool written =
-        ::ftruncate(file_, 0) == 0 &&
-        ::pwrite(file_, content.data(), content.size(), 0) == static_cast<ssize_t>(content.size());
-    fuzz::require(written, "cannot write into memory");
-  }
-
- private:
-  TempFolder folder_;
-  int file_;
-};
 
 void require_sound(const Image& image) {
   fuzz::require(image.width > 0 && image.height > 0 && image.channels > 0, "an image is empty");
@@ -56,10 +25,11 @@ void require_sound(const Image& image) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const MemoryFile file;
   fuzz::Input input(data, size);
-  const std::filesystem::path path = file.link(input.pick(fuzz::kImageExtensions));
-  file.write(input.rest());
-  fuzz::succeeds([&] { require_sound(read_image(path)); });
+  const std::string name = std::string("fuzz.") + input.pick(fuzz::kImageExtensions);
+  const std::string content = input.rest();
+  std::vector<std::string> warnings;
+  fuzz::succeeds([&] { require_sound(read_image_content(content, name, &warnings)); });
+  for (const std::string& warning : warnings) fuzz::require_line(warning);
   return 0;
 }

@@ -5,6 +5,6 @@ namespace onmesh::fuzz {
 
 /// "dat" is no format's: the content alone tells.
 inline constexpr const char* kImageExtensions[] = {"png", "jpg", "tif", "exr", "tga", "bmp",
-                                                   "ppm", "sgi", "hdr", "gif", "psd", "dat"};
+                                                   "ppm", "sgi", "hdr", "webp", "psd", "dat"};
 
 }  // namespace onmesh::fuzz

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "onmesh/image/image_io.h"
 #include "support/image_files.h"
 
 namespace onmesh {
@@ -17,7 +18,9 @@ struct Kind {
   int channels;
   TypeDesc::BASETYPE type;
   std::vector<std::pair<const char*, const char*>> attributes = {};
-  int tile = 0;  ///< its side; 0 = scanlines
+  int tile = 0;         ///< its side; 0 = scanlines
+  int orientation = 1;  ///< the tag
+  int overscan = 0;     ///< columns and rows around the display window
 };
 
 const std::vector<Kind>& kinds() {
@@ -27,6 +30,7 @@ const std::vector<Kind>& kinds() {
       {"rgba16.png", 4, TypeDesc::UINT16},
       {"rgb.jpg", 3, TypeDesc::UINT8, {{"jpeg:subsampling", "4:2:0"}}},
       {"grey.jpg", 1, TypeDesc::UINT8},
+      {"turned.jpg", 3, TypeDesc::UINT8, {}, 0, 6},
       {"plain8.tif", 3, TypeDesc::UINT8, {{"compression", "none"}}},
       {"zip16.tif", 4, TypeDesc::UINT16, {{"compression", "zip"}}},
       {"lzw-float.tif", 3, TypeDesc::FLOAT, {{"compression", "lzw"}}},
@@ -46,6 +50,7 @@ const std::vector<Kind>& kinds() {
       {"dwaa.exr", 4, TypeDesc::HALF, {{"compression", "dwaa"}}},
       {"dwab.exr", 3, TypeDesc::FLOAT, {{"compression", "dwab"}}},
       {"tiles.exr", 3, TypeDesc::HALF, {{"compression", "zip"}}, 16},
+      {"overscan.exr", 3, TypeDesc::HALF, {{"compression", "none"}}, 0, 1, 3},
       {"uint.exr", 2, TypeDesc::UINT32, {{"compression", "zip"}}},
       {"plain.tga", 3, TypeDesc::UINT8, {{"compression", "none"}}},
       {"rle.tga", 4, TypeDesc::UINT8, {{"compression", "rle"}}},
@@ -60,6 +65,7 @@ const std::vector<Kind>& kinds() {
       {"rgb.hdr", 3, TypeDesc::FLOAT},
       {"rgb.gif", 3, TypeDesc::UINT8},
       {"rgb.webp", 3, TypeDesc::UINT8},
+      {"rgba.webp", 4, TypeDesc::UINT8},
       {"rgb.jp2", 3, TypeDesc::UINT8},
       {"rgba.ico", 4, TypeDesc::UINT8},
       {"rgb.dpx", 3, TypeDesc::UINT16},
@@ -77,6 +83,10 @@ bool write(const Kind& kind, const std::filesystem::path& path) {
   OIIO::ImageSpec spec(24, 20, kind.channels, TypeDesc(kind.type));
   for (const auto& [name, value] : kind.attributes) spec.attribute(name, value);
   spec.attribute("ImageDescription", "a picture of noise");
+  spec.attribute("Orientation", kind.orientation);
+  spec.x = spec.y = -kind.overscan;
+  spec.full_width -= 2 * kind.overscan;
+  spec.full_height -= 2 * kind.overscan;
   spec.tile_width = spec.tile_height = kind.tile;
   spec.tile_depth = kind.tile > 0 ? 1 : 0;
   // Noise in some rows only, so that run lengths are of all lengths.
@@ -99,6 +109,16 @@ std::vector<std::string> write_image_kinds(const std::filesystem::path& folder) 
       std::filesystem::remove(folder / kind.name);
     }
   }
+  // What OpenImageIO does not write: colours without opacity, and Exif in PNG and WebP.
+  Image image = noise(24, 20, 4);
+  image.alpha_channel = 3;
+  write_image(folder / "lossless.webp", image);
+  const Image turned = read_image(folder / "turned.jpg");
+  for (const char* const name : {"exif.png", "exif.webp"}) {
+    write_image(folder / name, turned);
+    names.emplace_back(name);
+  }
+  names.emplace_back("lossless.webp");
   return names;
 }
 

@@ -21,6 +21,16 @@ inline std::string number_text(double value) {
   return text;
 }
 
+/// Without control characters and without spaces at its end: what a file or a library says may be
+/// shown in a message of one line.
+inline std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = ' ';
+  }
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
 /// ASCII letters in lower case, all else as it is.
 inline std::string lower_case(std::string_view text) {
   std::string result(text);

@@ -1,10 +1,13 @@
 #include "onmesh/image/file_format.h"
 
 #include <algorithm>
-#include <cctype>
+#include <bit>
+#include <cstdint>
 
 #include "onmesh/base/error.h"
 #include "onmesh/base/text.h"
+#include "onmesh/image/exif.h"
+#include "onmesh/image/webp.h"
 
 namespace onmesh {
 namespace {
@@ -14,21 +17,29 @@ using OIIO::TypeDesc;
 
 const std::vector<ImageFormat>& formats() {
   static const std::vector<ImageFormat> kFormats = {
-      {"png", {".png"}, {TypeDesc::UINT8, TypeDesc::UINT16}, {1, 2, 3, 4}, true, true},
-      {"jpeg", {".jpg", ".jpeg", ".jpe"}, {TypeDesc::UINT8}, {1, 3}, false, true},
+      {"png", {".png"}, {TypeDesc::UINT8, TypeDesc::UINT16}, {1, 2, 3, 4}, true, true, true},
+      {"jpeg", {".jpg", ".jpeg", ".jpe"}, {TypeDesc::UINT8}, {1, 3}, false, true, true},
       {"tiff",
        {".tif", ".tiff"},
        {TypeDesc::UINT8, TypeDesc::INT8, TypeDesc::UINT16, TypeDesc::INT16, TypeDesc::FLOAT,
         TypeDesc::INT32, TypeDesc::UINT32, TypeDesc::DOUBLE},
        {},
        true,
+       true,
        false},
-      {"openexr", {".exr"}, {TypeDesc::HALF, TypeDesc::FLOAT, TypeDesc::UINT32}, {}, true, false},
-      {"targa", {".tga"}, {TypeDesc::UINT8}, {1, 3, 4}, true, true},
-      {"bmp", {".bmp"}, {TypeDesc::UINT8}, {1, 3, 4}, true, true},
-      {"pnm", {".ppm", ".pgm", ".pnm"}, {TypeDesc::UINT8}, {1, 3}, true, true},
-      {"sgi", {".sgi"}, {TypeDesc::UINT8, TypeDesc::UINT16}, {1, 2, 3, 4}, true, false},
-      {"hdr", {".hdr"}, {TypeDesc::FLOAT}, {3}, false, true},
+      {"openexr",
+       {".exr"},
+       {TypeDesc::HALF, TypeDesc::FLOAT, TypeDesc::UINT32},
+       {},
+       true,
+       true,
+       false},
+      {"webp", {".webp"}, {TypeDesc::UINT8}, {3, 4}, true, true, true},
+      {"targa", {".tga"}, {TypeDesc::UINT8}, {1, 3, 4}, true, false, true},
+      {"bmp", {".bmp"}, {TypeDesc::UINT8}, {1, 3, 4}, true, false, true},
+      {"pnm", {".ppm", ".pgm", ".pnm"}, {TypeDesc::UINT8}, {1, 3}, true, false, true},
+      {"sgi", {".sgi"}, {TypeDesc::UINT8, TypeDesc::UINT16}, {1, 2, 3, 4}, true, false, false},
+      {"hdr", {".hdr"}, {TypeDesc::FLOAT}, {3}, false, false, true},
   };
   return kFormats;
 }
@@ -55,6 +66,9 @@ void drop_stale_attributes(OIIO::ImageSpec& spec, const Image::Source& source,
     spec.erase_attribute(name);
   if (source.format != format.name) spec.erase_attribute("compression");
   if (format.name == "openexr") spec.erase_attribute("ICCProfile");  // else OpenImageIO prints
+  if (format.name != "png" && format.name != "webp") spec.erase_attribute(kExifAttribute);
+  if (format.name != "webp") spec.erase_attribute(kXmpAttribute);
+  if (!format.holds_orientation) spec.erase_attribute("Orientation");
 }
 
 bool has_float(const std::vector<SampleType>& types) {
@@ -91,18 +105,81 @@ void choose_compression(OIIO::ImageSpec& spec, const ImageFormat& format,
   }
 }
 
+/// Where the pixels lie in the plane, as far as the format tells.
+void place_in_plane(const ImageWindows& windows, const ImageFormat& format,
+                    const OIIO::ImageSpec& was, const OIIO::ImageOutput& output,
+                    OIIO::ImageSpec& spec) {
+  const PixelWindow &data = windows.data, &display = windows.display;
+  const bool fits = output.supports("origin") &&
+                    ((data.x >= 0 && data.y >= 0) || output.supports("negativeorigin"));
+  if (!fits) return;
+  spec.x = data.x;
+  spec.y = data.y;
+  spec.full_x = display.x;
+  spec.full_y = display.y;
+  spec.full_width = display.width;
+  spec.full_height = display.height;
+  if (format.name != "tiff" || data != data_window(was)) return;
+  spec.full_x = was.full_x;
+  spec.full_y = was.full_y;
+  spec.full_width = was.full_width;
+  spec.full_height = was.full_height;
+}
+
+/// Whether a texel that is no pixel of the data window is anything but 0.
+bool has_texels_outside(const Image& image, const ImageWindows& windows) {
+  const std::size_t channels = std::size_t(image.channels), width = std::size_t(image.width);
+  const auto is_zero = [](float value) { return std::bit_cast<std::uint32_t>(value) == 0; };
+  for (int row = 0; row < image.height; ++row) {
+    const SharedRow inside = shared_row(windows.display, windows.data, row);
+    const float* const values = image.pixels.data() + std::size_t(row) * width * channels;
+    const std::size_t first = inside.count == 0 ? width : inside.from % width;
+    if (!std::all_of(values, values + first * channels, is_zero) ||
+        !std::all_of(values + std::min(first + inside.count, width) * channels,
+                     values + width * channels, is_zero))
+      return true;
+  }
+  return false;
+}
+
 }  // namespace
 
-const ImageFormat& image_format(const fs::path& path) {
-  std::error_code error;
-  if (fs::is_directory(path, error))
-    throw FileError(path.string() + ": cannot write here: it is a folder");
-  const std::string extension = lower_case(path.extension().string());
+const ImageFormat& image_format(const fs::path& name) {
+  const std::string extension = lower_case(name.extension().string());
   for (const ImageFormat& format : formats())
     for (const char* known : format.extensions)
       if (extension == known) return format;
-  throw FileError(path.string() + ": cannot write images of type \"" + extension +
-                  "\"; use .png, .jpg, .tif, .exr, .tga, .bmp, .ppm, .sgi or .hdr");
+  throw FileError(name.string() + ": cannot write images of type \"" + extension +
+                  "\"; use .png, .jpg, .tif, .exr, .webp, .tga, .bmp, .ppm, .sgi or .hdr");
+}
+
+std::unique_ptr<OIIO::ImageOutput> make_output(const ImageFormat& format) {
+  return format.name == "webp" ? make_webp_output() : OIIO::ImageOutput::create(format.name);
+}
+
+const Image::Source* matching_source(const Image& image) {
+  if (!image.source) return nullptr;
+  const Image::Source& source = *image.source;
+  const PixelWindow display = display_window(source.spec, source.format);
+  const bool matches = display.width == image.width && display.height == image.height &&
+                       int(source.types.size()) == image.channels;
+  return matches ? &source : nullptr;
+}
+
+ImageWindows source_windows(const Image& image) {
+  const PixelWindow plain{0, 0, image.width, image.height};
+  const Image::Source* const source = matching_source(image);
+  if (source == nullptr) return {plain, plain};
+  return {data_window(source->spec), display_window(source->spec, source->format)};
+}
+
+ImageWindows output_windows(const ImageFormat& format, const Image& image) {
+  ImageWindows windows = source_windows(image);
+  if (windows.are_equal()) return windows;
+  const PixelWindow plain{0, 0, image.width, image.height};
+  if (format.name != "openexr") return {plain, plain};
+  if (has_texels_outside(image, windows)) windows.data = around_both(windows.data, windows.display);
+  return windows;
 }
 
 bool holds(SampleType to, SampleType from) {
@@ -151,8 +228,10 @@ std::vector<SampleType> choose_types(const ImageFormat& format, const Image& ima
 }
 
 OIIO::ImageSpec output_spec(const ImageFormat& format, const Image& image,
-                            const std::vector<SampleType>& types, const OIIO::ImageOutput& output) {
-  OIIO::ImageSpec spec(image.width, image.height, image.channels, TypeDesc(types[0]));
+                            const std::vector<SampleType>& types, const ImageWindows& windows,
+                            const OIIO::ImageOutput& output) {
+  const PixelWindow& data = windows.data;
+  OIIO::ImageSpec spec(data.width, data.height, image.channels, TypeDesc(types[0]));
   // The values are what the file holds, never multiplied with alpha or divided by it.
   const bool unassociated = !image.source ||
                             image.source->spec.get_int_attribute("oiio:UnassociatedAlpha") != 0 ||
@@ -166,12 +245,7 @@ OIIO::ImageSpec output_spec(const ImageFormat& format, const Image& image,
       spec.tile_height = was.tile_height;
       spec.tile_depth = was.tile_depth;
     }
-    const bool offset_fits = output.supports("origin") &&
-                             ((was.x >= 0 && was.y >= 0) || output.supports("negativeorigin"));
-    if (offset_fits && was.width == image.width && was.height == image.height) {
-      spec.x = spec.full_x = was.x;
-      spec.y = spec.full_y = was.y;
-    }
+    place_in_plane(windows, format, was, output, spec);
   }
   spec.alpha_channel = image.alpha_channel;
   if (int(image.channel_names.size()) == image.channels)
@@ -181,6 +255,9 @@ OIIO::ImageSpec output_spec(const ImageFormat& format, const Image& image,
   if (is_mixed(types)) spec.channelformats.assign(types.begin(), types.end());
   spec.erase_attribute("oiio:UnassociatedAlpha");
   if (unassociated) spec.attribute("oiio:UnassociatedAlpha", 1);
+  // Else OpenImageIO writes what memory happens to hold; this is the format's own word for none.
+  if (format.name == "sgi" && spec.get_string_attribute("ImageDescription").empty())
+    spec.attribute("ImageDescription", "no name");
   choose_compression(spec, format, types);
   return spec;
 }

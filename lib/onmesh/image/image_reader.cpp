@@ -1,60 +1,23 @@
 #include "onmesh/image/image_reader.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <string_view>
 #include <utility>
 
 #include "onmesh/base/error.h"
 #include "onmesh/base/text.h"
 #include "onmesh/image/check_content.h"
+#include "onmesh/image/exif.h"
+#include "onmesh/image/several_images.h"
+#include "onmesh/image/webp.h"
 
 namespace onmesh {
 namespace {
 
-/// Library messages come with line breaks, hold bytes of the file, and may be empty.
-std::string one_line(std::string text, const std::string& otherwise) {
-  for (char& c : text) {
-    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = ' ';
-  }
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text.empty() ? otherwise : text;
-}
-
-/// OpenImageIO's name of the format, by the file's first bytes; null if it is none of ours. TGA has
-/// no mark at its start, and none at all if it is old: it may go by the name.
-const char* format_of_content(const std::filesystem::path& path) {
-  using namespace std::string_view_literals;
-  static constexpr std::pair<std::string_view, const char*> kMarks[] = {
-      {"\x89PNG"sv, "png"},
-      {"\xff\xd8"sv, "jpeg"},
-      {"II*\0"sv, "tiff"},
-      {"MM\0*"sv, "tiff"},
-      {"II+\0"sv, "tiff"},
-      {"MM\0+"sv, "tiff"},
-      {"\x76\x2f\x31\x01"sv, "openexr"},
-      {"BM"sv, "bmp"},
-      {"\x01\xda"sv, "sgi"},
-      {"#?"sv, "hdr"}};
-  constexpr std::string_view kTgaEnd = "TRUEVISION-XFILE.\0"sv;
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes(kTgaEnd.size(), '\0');
-  const auto size = std::streamsize(bytes.size());
-  file.read(bytes.data(), size);
-  for (const auto& [mark, format] : kMarks)
-    if (bytes.starts_with(mark)) return format;
-  if (bytes[0] == 'P' && "123456fF"sv.find(bytes[1]) != std::string_view::npos) return "pnm";
-  const std::string extension = lower_case(path.extension().string());
-  if (extension == ".tga" || extension == ".tpic") return "targa";
-  file.clear();
-  file.seekg(-size, std::ios::end);
-  return file.read(bytes.data(), size) && bytes == kTgaEnd ? "targa" : nullptr;
-}
-
-void check_readable(const std::filesystem::path& path) {
+void check_readable(const ImagePlace& place) {
+  const std::filesystem::path& path = place.path;
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     throw FileError(path.string() + ": cannot read the image: it is a folder");
@@ -69,7 +32,24 @@ void check_readable(const std::filesystem::path& path) {
                     ": cannot open the image: " + std::strerror(errno ? errno : ENOENT));
   }
   if (std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) == 0)
-    refuse_image(path, "the file is empty");
+    refuse_image(place.name, "the file is empty");
+}
+
+/// "(default), diffuse, specular": what precedes the last dot in the names of channels, if there
+/// are several of it; at most eight.
+std::string layers_of(const OIIO::ImageSpec& spec) {
+  constexpr std::size_t kMostNamed = 8;
+  std::vector<std::string> layers;
+  for (const std::string& channel : spec.channelnames) {
+    const std::size_t dot = channel.rfind('.');
+    const std::string layer = dot == std::string::npos ? "(default)" : channel.substr(0, dot);
+    if (std::find(layers.begin(), layers.end(), layer) == layers.end()) layers.push_back(layer);
+  }
+  if (layers.size() < 2) return {};
+  std::string text;
+  for (std::size_t i = 0; i < std::min(layers.size(), kMostNamed); ++i)
+    text += (i == 0 ? "" : ", ") + layers[i];
+  return layers.size() > kMostNamed ? text + " and more" : text;
 }
 
 }  // namespace
@@ -82,38 +62,86 @@ int rows_at_a_time(const OIIO::ImageSpec& spec) {
 
 ImageReader::~ImageReader() = default;
 
-ImageReader::ImageReader(const std::filesystem::path& path) : path_(path) {
-  check_readable(path);
+ImageReader::ImageReader(const ImagePlace& place) : place_(place) {
+  open();
+  check_header();
+  check_single_image(place_, *input_, warnings_);
+  for (int c = 0; c < spec_.nchannels; ++c)
+    types_.push_back(SampleType(spec_.channelformat(c).basetype));
+  note_oddities();
+}
+
+// Library messages come with line breaks, hold bytes of the file, and may be empty.
+std::string ImageReader::message(std::string text, const std::string& otherwise) const {
+  const std::string path = place_.path.string(), name = place_.name.string();
+  if (path != name) {
+    for (std::size_t at = text.find(path); at != std::string::npos; at = text.find(path, at)) {
+      text.replace(at, path.size(), name);
+      at += name.size();
+    }
+  }
+  text = one_line(std::move(text));
+  return text.empty() ? otherwise : text;
+}
+
+void ImageReader::open() {
+  const std::filesystem::path& name = place_.name;
+  check_readable(place_);
   OIIO::ImageSpec wishes;
   wishes.attribute("oiio:UnassociatedAlpha", 1);
   // Left to itself OpenImageIO tries all its readers, those of films and volumes as well, on what
   // the right one has refused: slow, and not all of them survive damaged files.
-  const char* const found = format_of_content(path);
-  if (found == nullptr)
-    refuse_image(path, "not a readable image: not PNG, JPEG, TIFF, EXR, TGA, BMP, PNM, SGI or HDR");
-  check_content(path, found);
-  input_ = OIIO::ImageInput::create(found);
-  if (!input_)
-    refuse_image(path, "not a readable image: " + one_line(OIIO::geterror(), "no reader"));
-  if (!input_->open(path.string(), spec_, wishes))
-    refuse_image(path, "not a readable image: " + one_line(input_->geterror(), "no reason given"));
-  format_ = input_->format_name();
-  check_image_size(path, spec_.width, spec_.height, spec_.nchannels);
-  if (spec_.deep) refuse_image(path, "deep images cannot be filtered; flatten it first");
-  if (spec_.depth > 1) refuse_image(path, "volume images cannot be filtered");
-  if (spec_.x != spec_.full_x || spec_.y != spec_.full_y || spec_.width != spec_.full_width ||
-      spec_.height != spec_.full_height)
-    refuse_image(path, "the data window differs from the display window; save the image uncropped");
-  if (format_ == "openexr") {
-    if (input_->seek_subimage(1, 0))
-      refuse_image(path,
-                   "the file has several parts; save the part to filter as a file of its own");
-    input_->geterror();
-    if (!input_->seek_subimage(0, 0))
-      refuse_image(path, one_line(input_->geterror(), "cannot be read"));
+  format_ = content_format(place_);
+  if (format_.empty()) {
+    const std::string foreign = foreign_format(place_);
+    if (!foreign.empty())
+      refuse_image(name, "is " + foreign + ", which is not read; convert it to PNG, TIFF or EXR");
+    refuse_image(name,
+                 "not a readable image: not PNG, JPEG, TIFF, EXR, WebP, TGA, BMP, PNM, SGI or HDR");
   }
-  for (int c = 0; c < spec_.nchannels; ++c)
-    types_.push_back(SampleType(spec_.channelformat(c).basetype));
+  check_content(place_, format_);
+  input_ = format_ == "webp" ? make_webp_input() : OIIO::ImageInput::create(format_);
+  if (!input_)
+    refuse_image(name, "not a readable image: " + message(OIIO::geterror(), "no reader"));
+  if (!input_->open(place_.path.string(), spec_, wishes))
+    refuse_image(name, "not a readable image: " + message(input_->geterror(), "no reason given"));
+  format_ = input_->format_name();
+  if (format_ == "png") read_png_exif(place_.path, spec_);
+}
+
+void ImageReader::check_header() {
+  const std::filesystem::path& name = place_.name;
+  check_image_size(name, spec_.width, spec_.height, spec_.nchannels);
+  if (spec_.deep) refuse_image(name, "deep images cannot be filtered; flatten it first");
+  if (spec_.depth > 1) refuse_image(name, "volume images cannot be filtered");
+  windows_ = {data_window(spec_), display_window(spec_, format_)};
+  check_image_size(name, windows_.display.width, windows_.display.height, spec_.nchannels);
+  if (overlap_of(windows_.data, windows_.display).is_empty())
+    refuse_image(name, "the file has no pixels inside its display window");
+  // There the order of rows is part of the format, and those that run otherwise are hardly ever
+  // met.
+  if (format_ == "hdr" && orientation_of(spec_) != 1)
+    refuse_image(name, "its rows do not run from left to right and top to bottom; save it anew");
+}
+
+void ImageReader::note_oddities() {
+  if (const int orientation = orientation_of(spec_); orientation != 1)
+    warnings_.push_back(
+        "pixels are taken as they are stored, as modelling programs do: the orientation tag " +
+        std::to_string(orientation) + " is kept, not followed");
+  if (!windows_.are_equal())
+    warnings_.push_back("the texture is the display window, " + window_text(windows_.display) +
+                        "; there are pixels of the data window only, " +
+                        window_text(windows_.data));
+  const bool is_placed = spec_.x != 0 || spec_.y != 0 || spec_.full_width != spec_.width ||
+                         spec_.full_height != spec_.height;
+  if (format_ == "tiff" && is_placed)
+    warnings_.emplace_back(
+        "the texture is all pixels that are stored; their place on a page is "
+        "kept, not followed");
+  if (const std::string layers = layers_of(spec_); !layers.empty())
+    warnings_.push_back("its layers (" + one_line(layers) +
+                        ") are filtered together, as one set of channels");
 }
 
 void ImageReader::read(const std::function<void(std::span<const std::byte>, int, int)>& take) {
@@ -131,8 +159,8 @@ void ImageReader::read(const std::function<void(std::span<const std::byte>, int,
             : input_->read_scanlines(0, 0, begin, begin + rows, spec_.z, 0, spec_.nchannels,
                                      OIIO::TypeUnknown, buffer.data());
     if (!ok || input_->has_error()) {  // some readers return true for rows they made up
-      const std::string why = one_line(input_->geterror(), "no reason given");
-      refuse_image(path_, "the file is truncated or damaged: " + why);
+      const std::string why = message(input_->geterror(), "no reason given");
+      refuse_image(place_.name, "the file is truncated or damaged: " + why);
     }
     take(std::span(buffer).first(row_bytes * std::size_t(rows)), row, rows);
   }

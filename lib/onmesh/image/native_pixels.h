@@ -19,8 +19,9 @@ struct Image::Source {
   OIIO::ImageSpec spec;
   std::string format;             ///< OpenImageIO's name: "png", "openexr", ...
   std::vector<SampleType> types;  ///< one per channel
-  /// The file's pixels, row-major, channels interleaved, each in its own type. Empty if float can
-  /// give them back: 8 and 16 bit integers, half and float can.
+  /// The pixels of the file's data window, row-major, channels interleaved, each in its own type.
+  /// Empty if the image's float values can give them back: those of 8 and 16 bit integers, half and
+  /// float can where every pixel is a texel.
   std::vector<std::byte> native;
 };
 

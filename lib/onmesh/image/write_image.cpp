@@ -6,17 +6,21 @@
 #include <algorithm>
 #include <bit>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
-#include <functional>
 #include <memory>
 
 #include "onmesh/base/atomic_file.h"
 #include "onmesh/base/error.h"
+#include "onmesh/base/file_io.h"
+#include "onmesh/base/memory_file.h"
+#include "onmesh/base/text.h"
+#include "onmesh/image/exif.h"
 #include "onmesh/image/file_format.h"
 #include "onmesh/image/image_io.h"
 #include "onmesh/image/image_reader.h"
 #include "onmesh/image/native_pixels.h"
+#include "onmesh/image/webp.h"
+#include "onmesh/image/write_warnings.h"
 
 namespace onmesh {
 namespace {
@@ -24,30 +28,83 @@ namespace {
 namespace fs = std::filesystem;
 using OIIO::TypeDesc;
 
-/// Native pixels of the rows; where a value is what the file had, the file's own bits.
-std::vector<std::byte> native_rows(const Image& image, const std::vector<SampleType>& types,
-                                   int row, int rows) {
-  const std::size_t first = std::size_t(row) * std::size_t(image.width);
-  const std::size_t count = std::size_t(rows) * std::size_t(image.width);
+/// How an image is put into a file.
+struct Encoding {
+  const ImageFormat* format = nullptr;
+  std::vector<SampleType> types;  ///< of the file's channels
+  ImageWindows windows;           ///< of the file
+};
+
+Encoding encoding_of(const ImageFormat& format, const Image& image,
+                     const ImageWriteOptions& options) {
+  return {&format, choose_types(format, image, options), output_windows(format, image)};
+}
+
+/// The source's own pixels in rows of the file's data window; zero where it has none, and empty if
+/// it has kept none.
+std::vector<std::byte> source_rows(const Image& image, const ImageWindows& windows, int row,
+                                   int rows) {
+  const Image::Source* const source = matching_source(image);
+  if (source == nullptr || source->native.empty()) return {};
+  const ImageWindows were = source_windows(image);
+  const std::size_t bytes = pixel_bytes(source->types), width = std::size_t(windows.data.width);
+  std::vector<std::byte> native(std::size_t(rows) * width * bytes);
+  // In a format without windows the file's plane begins at the texture's first texel.
+  const PixelWindow data{were.data.x - were.display.x + windows.display.x,
+                         were.data.y - were.display.y + windows.display.y, were.data.width,
+                         were.data.height};
+  const std::size_t before = std::size_t(row) * width;
+  for (int r = row; r < row + rows; ++r) {
+    const SharedRow shared = shared_row(windows.data, data, r);
+    if (shared.count == 0) continue;
+    std::memcpy(native.data() + (shared.from - before) * bytes,
+                source->native.data() + shared.to * bytes, shared.count * bytes);
+  }
+  return native;
+}
+
+/// Put the image's values over those of rows of the data window.
+void place_texels(const Image& image, const ImageWindows& windows, int row, int rows,
+                  std::vector<float>& values) {
   const std::size_t channels = std::size_t(image.channels);
-  const std::size_t bytes = pixel_bytes(types);
+  const std::size_t before = std::size_t(row) * std::size_t(windows.data.width);
+  for (int r = row; r < row + rows; ++r) {
+    const SharedRow shared = shared_row(windows.data, windows.display, r);
+    if (shared.count == 0) continue;
+    std::copy_n(image.pixels.data() + shared.to * channels, shared.count * channels,
+                values.data() + (shared.from - before) * channels);
+  }
+}
+
+/// Native pixels of rows of the data window; where a value is what the file had, the file's own
+/// bits.
+std::vector<std::byte> native_rows(const Image& image, const Encoding& encoding, int row,
+                                   int rows) {
+  const std::vector<SampleType>& types = encoding.types;
+  const ImageWindows& windows = encoding.windows;
+  const std::size_t width = std::size_t(windows.data.width), count = std::size_t(rows) * width;
+  const std::size_t channels = std::size_t(image.channels), bytes = pixel_bytes(types);
+  const auto before = source_rows(image, windows, row, rows);
+  std::vector<float> were(before.empty() ? 0 : count * channels), placed;
+  if (!before.empty()) to_float(before.data(), image.source->types, count, were.data());
+  if (!windows.are_equal()) {
+    placed = were;
+    placed.resize(count * channels);
+    place_texels(image, windows, row, rows, placed);
+  }
+  const float* const values = windows.are_equal()
+                                  ? image.pixels.data() + std::size_t(row) * width * channels
+                                  : placed.data();
   std::vector<std::byte> native(count * bytes);
-  const float* values = image.pixels.data() + first * channels;
   from_float(values, types, count, native.data());
-  const Image::Source* source = image.source.get();
-  if (source == nullptr || source->native.empty() || source->types != types ||
-      source->spec.width != image.width || source->spec.height != image.height)
-    return native;
-  const std::byte* before = source->native.data() + first * bytes;
-  std::vector<float> were(count * channels);
-  to_float(before, types, count, were.data());
+  if (before.empty() || image.source->types != types) return native;
   for (std::size_t p = 0; p < count; ++p) {
     std::size_t at = p * bytes;
     for (std::size_t c = 0; c < channels; ++c) {
       const std::size_t size = TypeDesc(types[c]).size();
       const auto bits = [&](float value) { return std::bit_cast<std::uint32_t>(value); };
       if (bits(were[p * channels + c]) == bits(values[p * channels + c]))
-        std::memcpy(native.data() + at, before + at, size);
+        std::memcpy(native.data() + at, before.data() + at, size);
       at += size;
     }
   }
@@ -69,27 +126,27 @@ int overwrite(const fs::path& path, const std::vector<unsigned char>& bytes) {
 }
 
 /// Write the image to the temporary file, which is there already.
-void encode(const fs::path& temporary, const fs::path& path, const ImageFormat& format,
-            const Image& image, const std::vector<SampleType>& types) {
+void encode(const ImagePlace& place, const Image& image, const Encoding& encoding) {
+  const ImageFormat& format = *encoding.format;
   const auto fail = [&](const std::string& why) {
-    throw FileError(path.string() + ": cannot write the image: " + why);
+    throw FileError(place.name.string() + ": cannot write the image: " + why);
   };
-  const auto output = OIIO::ImageOutput::create(format.name);
-  if (!output) fail("OpenImageIO lacks support for " + std::string(format.name));
+  const auto output = make_output(format);
+  if (!output) fail("OpenImageIO lacks support for " + format.name);
   const auto library_error = [&] {
-    std::string why = output->geterror();
-    std::replace(why.begin(), why.end(), '\n', ' ');
+    const std::string why = one_line(output->geterror());
     fail(why.empty() ? "no reason given" : why);
   };
-  const OIIO::ImageSpec spec = output_spec(format, image, types, *output);
+  const OIIO::ImageSpec spec =
+      output_spec(format, image, encoding.types, encoding.windows, *output);
   OIIO::Filesystem::IOVecOutput memory;
   if (format.in_memory && !output->set_ioproxy(&memory)) library_error();
-  if (!output->open(temporary.string(), spec)) library_error();
+  if (!output->open(place.path.string(), spec)) library_error();
   const int step = rows_at_a_time(spec);
-  const TypeDesc type = spec.channelformats.empty() ? TypeDesc(types[0]) : TypeDesc();
-  for (int row = 0; row < image.height; row += step) {
-    const int rows = std::min(step, image.height - row);
-    const auto native = native_rows(image, types, row, rows);
+  const TypeDesc type = spec.channelformats.empty() ? TypeDesc(encoding.types[0]) : TypeDesc();
+  for (int row = 0; row < spec.height; row += step) {
+    const int rows = std::min(step, spec.height - row);
+    const auto native = native_rows(image, encoding, row, rows);
     const int begin = spec.y + row;
     const bool ok = spec.tile_width > 0
                         ? output->write_tiles(spec.x, spec.x + spec.width, begin, begin + rows,
@@ -99,122 +156,88 @@ void encode(const fs::path& temporary, const fs::path& path, const ImageFormat& 
   }
   if (!output->close()) library_error();
   if (!format.in_memory) return;
-  if (const int error = overwrite(temporary, memory.buffer())) fail(std::strerror(error));
+  std::vector<unsigned char> bytes = memory.buffer();
+  if (format.name == "png") add_png_exif(bytes, spec);
+  if (const int error = overwrite(place.path, bytes)) fail(std::strerror(error));
 }
 
 /// Read the file back: writers report success on a full disk.
-void verify(const fs::path& temporary, const fs::path& path, const ImageFormat& format,
-            const Image& image, const std::vector<SampleType>& types) {
+void verify(const ImagePlace& place, const Image& image, const Encoding& encoding) {
   const auto fail = [&](const std::string& why) {
-    throw FileError(path.string() + ": the written image does not read back (" + why +
+    throw FileError(place.name.string() + ": the written image does not read back (" + why +
                     "); is the disk full?");
   };
+  const bool lossless = encoding.format->lossless;
   try {
-    ImageReader reader(temporary);
-    const OIIO::ImageSpec& spec = reader.spec();
-    if (spec.width != image.width || spec.height != image.height ||
-        spec.nchannels != image.channels)
+    ImageReader reader(place);
+    const PixelWindow &data = reader.windows().data, &expected_data = encoding.windows.data;
+    if (data.width != expected_data.width || data.height != expected_data.height ||
+        reader.spec().nchannels != image.channels)
       fail("other dimensions");
-    if (format.lossless && reader.types() != types) fail("other depth");
+    if (encoding.format->name == "openexr" && reader.windows() != encoding.windows)
+      fail("another place in the plane");
+    if (lossless && reader.types() != encoding.types) fail("other depth");
     reader.read([&](std::span<const std::byte> native, int row, int rows) {
-      if (!format.lossless) return;
-      const auto expected = native_rows(image, types, row, rows);
+      if (!lossless) return;
+      const auto expected = native_rows(image, encoding, row, rows);
       if (!std::equal(native.begin(), native.end(), expected.begin(), expected.end()))
         fail("other values");
     });
   } catch (const InputError& error) {
     const std::string why = error.what();
-    fail(why.substr(std::min(why.size(), temporary.string().size() + 2)));
+    fail(why.substr(std::min(why.size(), place.name.string().size() + 2)));
   }
 }
 
-const char* type_words(SampleType type) {
-  switch (type) {
-    case TypeDesc::UINT8:
-      return "8-bit integers";
-    case TypeDesc::UINT16:
-      return "16-bit integers";
-    case TypeDesc::HALF:
-      return "16-bit floats";
-    case TypeDesc::FLOAT:
-      return "32-bit floats";
-    case TypeDesc::DOUBLE:
-      return "64-bit floats";
-    case TypeDesc::UINT32:
-      return "32-bit integers";
-    default:
-      return "signed or wide integers";
+/// Throw unless the format can hold the image.
+const ImageFormat& check_format(const fs::path& name, const Image& image) {
+  const ImageFormat& format = image_format(name);
+  if (image.width < 1 || image.height < 1 || image.channels < 1)
+    throw InputError(name.string() + ": an empty image cannot be written");
+  const auto& counts = format.channels;
+  if (!counts.empty() && std::find(counts.begin(), counts.end(), image.channels) == counts.end()) {
+    const bool alpha = format.name == "jpeg" && image.alpha_channel >= 0;
+    throw InputError(
+        name.string() + ": " + format.name + " cannot hold " +
+        (alpha ? std::string("an alpha channel") : std::to_string(image.channels) + " channels") +
+        "; write PNG, TIFF or EXR instead");
   }
+  if (format.name == "webp" && std::max(image.width, image.height) > kLargestWebpSide)
+    throw InputError(name.string() + ": webp cannot hold sides of more than " +
+                     std::to_string(kLargestWebpSide) + " texels; write PNG, TIFF or EXR instead");
+  return format;
 }
 
-using Warn = std::function<void(const std::string&)>;
-
-/// Warn where the file's types hold less than the source's (or than the floats that are asked for).
-void warn_of_types(const Image& image, const ImageWriteOptions& options,
-                   const std::vector<SampleType>& types, const Warn& warn) {
-  if (!image.source || options.bits != 0 || int(image.source->types.size()) != image.channels)
-    return;
-  for (std::size_t c = 0; c < types.size(); ++c) {
-    const SampleType was = options.force_float ? TypeDesc::FLOAT : image.source->types[c];
-    if (holds(types[c], was)) continue;
-    warn(std::string(type_words(was)) + " are written as " + type_words(types[c]) +
-         ", the format holds no more");
-    return;
+/// Write and check a file that is there already.
+/// \return what it does not hold
+std::vector<std::string> write_place(const ImagePlace& place, const Image& image,
+                                     const ImageWriteOptions& options) {
+  const Encoding encoding = encoding_of(image_format(place.name), image, options);
+  try {
+    encode(place, image, encoding);
+    verify(place, image, encoding);
+  } catch (const std::bad_alloc&) {
+    throw FileError(place.name.string() + ": not enough memory to write the image");
   }
+  std::vector<std::string> warnings =
+      write_warnings(*encoding.format, image, options, encoding.types, encoding.windows);
+  for (std::string& warning : warnings) warning.insert(0, place.name.string() + ": ");
+  return warnings;
 }
 
-/// Warn of values that integers do not hold.
-void warn_of_values(const Image& image, const std::vector<SampleType>& types, const Warn& warn) {
-  std::uint64_t clamped = 0, not_numbers = 0;
-  for (std::size_t c = 0; c < types.size(); ++c) {
-    if (TypeDesc(types[c]).is_floating_point()) continue;
-    const float least = TypeDesc(types[c]).is_signed() ? -1.00004F : 0.0F;
-    for (std::size_t i = c; i < image.pixels.size(); i += types.size()) {
-      const float value = image.pixels[i];
-      if (std::isnan(value))
-        ++not_numbers;
-      else if (value < least || value > 1)
-        ++clamped;
-    }
-  }
-  if (clamped > 0)
-    warn(std::to_string(clamped) + " values outside [0,1] are clamped, the format holds integers");
-  if (not_numbers > 0)
-    warn(std::to_string(not_numbers) + " values that are not numbers are written as 0");
-}
-
-/// Warn where the source's alpha or colour profile means something else in the format.
-void warn_of_meaning(const ImageFormat& format, const Image& image, const Warn& warn) {
-  if (!image.source) return;
-  const Image::Source& source = *image.source;
-  const bool exr = format.name == "openexr", tiff = format.name == "tiff";
-  if (image.alpha_channel >= 0) {
-    const bool apart = source.spec.get_int_attribute("oiio:UnassociatedAlpha") != 0;
-    const bool multiplied = !apart && (source.format == "openexr" || source.format == "tiff");
-    if (exr && apart) warn("colours are not multiplied with alpha as EXR wants it");
-    if (!exr && !tiff && multiplied) warn("colours stay multiplied with alpha as in the source");
-  }
-  if (exr && source.spec.find_attribute("ICCProfile") != nullptr)
-    warn("EXR cannot hold the source's ICC profile");
+void append(const std::vector<std::string>& found, std::vector<std::string>* warnings) {
+  if (warnings != nullptr) warnings->insert(warnings->end(), found.begin(), found.end());
 }
 
 }  // namespace
 
 void check_writable_image(const fs::path& path, const Image& image) {
-  const ImageFormat& format = image_format(path);
-  if (image.width < 1 || image.height < 1 || image.channels < 1)
-    throw InputError(path.string() + ": an empty image cannot be written");
-  const auto& counts = format.channels;
-  if (!counts.empty() && std::find(counts.begin(), counts.end(), image.channels) == counts.end()) {
-    const bool alpha = format.name == "jpeg" && image.alpha_channel >= 0;
-    throw InputError(
-        path.string() + ": " + std::string(format.name) + " cannot hold " +
-        (alpha ? std::string("an alpha channel") : std::to_string(image.channels) + " channels") +
-        "; write PNG, TIFF or EXR instead");
-  }
+  std::error_code error;
+  if (fs::is_directory(path, error))
+    throw FileError(path.string() + ": cannot write here: it is a folder");
+  check_format(path, image);
   const fs::path target = follow_links(path);
   const fs::path folder = folder_of(target);
-  std::error_code error;
   if (!fs::is_directory(folder, error))
     throw FileError(path.string() + ": cannot write here: the folder does not exist");
   if (fs::exists(target, error) && !fs::is_regular_file(target, error))
@@ -232,26 +255,19 @@ void write_images(const std::vector<ImageFile>& files, const ImageWriteOptions& 
   std::vector<std::unique_ptr<AtomicFile>> written;
   std::vector<std::string> found;
   for (const ImageFile& file : files) {
-    const auto& path = file.path;
-    const Image& image = *file.image;
-    const ImageFormat& format = image_format(path);
-    const auto types = choose_types(format, image, options);
-    written.push_back(std::make_unique<AtomicFile>(path));
-    try {
-      encode(written.back()->temporary(), path, format, image, types);
-      verify(written.back()->temporary(), path, format, image, types);
-    } catch (const std::bad_alloc&) {
-      throw FileError(path.string() + ": not enough memory to write the image");
-    }
-    const auto warn = [&](const std::string& what) {
-      found.push_back(path.string() + ": " + what);
-    };
-    warn_of_types(image, options, types, warn);
-    warn_of_values(image, types, warn);
-    warn_of_meaning(format, image, warn);
+    written.push_back(std::make_unique<AtomicFile>(file.path));
+    append(write_place({written.back()->temporary(), file.path}, *file.image, options), &found);
   }
   commit_all(written);
-  if (warnings != nullptr) warnings->insert(warnings->end(), found.begin(), found.end());
+  append(found, warnings);
+}
+
+std::string encode_image(const fs::path& name, const Image& image, const ImageWriteOptions& options,
+                         std::vector<std::string>* warnings) {
+  check_format(name, image);
+  const MemoryFile file;
+  append(write_place({file.path(), name}, image, options), warnings);
+  return read_file(file.path());
 }
 
 void write_image(const fs::path& path, const Image& image, const ImageWriteOptions& options,
