@@ -1,10 +1,9 @@
 #include "onmesh/mesh_io/read_ply.h"
 
-#include <algorithm>
 #include <catch2/catch.hpp>
-#include <cstring>
 
 #include "onmesh/mesh_io/read_mesh.h"
+#include "support/ply_files.h"
 #include "support/refused.h"
 #include "support/temp_folder.h"
 
@@ -15,40 +14,8 @@ using Face = std::array<Index, 3>;
 
 namespace {
 
-TriangleMesh parse(const std::string& content, ReadReport* report = nullptr) {
-  ReadReport unwanted;
-  return read_ply("m.ply", content, {}, report != nullptr ? *report : unwanted);
-}
-
 std::string error_of(const std::string& content) {
   return onmesh::error_of(read_ply, "m.ply", content);
-}
-
-/// Values as binary data, in either byte order.
-class Bytes {
- public:
-  explicit Bytes(bool big) : big_(big) {}
-  template <class T>
-  Bytes& add(T value) {
-    std::array<char, sizeof(T)> b;
-    std::memcpy(b.data(), &value, sizeof(T));
-    if (big_) std::reverse(b.begin(), b.end());
-    text.append(b.data(), b.size());
-    return *this;
-  }
-  std::string text;
-
- private:
-  bool big_;
-};
-
-const std::string kVertices =
-    "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
-const std::string kFaces = "element face 1\nproperty list uchar int vertex_indices\n";
-const std::string kSquare = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
-
-std::string ascii(const std::string& elements, const std::string& body) {
-  return "ply\nformat ascii 1.0\n" + elements + "end_header\n" + body;
 }
 
 }  // namespace
@@ -65,12 +32,12 @@ TEST_CASE("a PLY file reads the same as text and in both byte orders", "[read_pl
       "element last 1\nproperty ushort end\n";
   const std::vector<TriangleMesh> meshes = [&] {
     std::vector<TriangleMesh> result;
-    result.push_back(parse(ascii(
+    result.push_back(parse_ply(ply_text(
         elements,
         "2 5 6 0.5\n0 0.25\n1 0 0 0 0 0 0\n2 1.5 0 0 1 7 1 0\n3 1.5 1 -2 0 1 1\n4 0 1 0 2 8 9 0 1\n"
         "7 3 0 1 2 -1\n8 4 0 1 2 3 1\n65535\n")));
     for (const bool big : {false, true}) {
-      Bytes b(big);
+      PlyBytes b(big);
       b.add<std::uint16_t>(2)
           .add<std::int16_t>(5)
           .add<std::int16_t>(6)
@@ -92,7 +59,7 @@ TEST_CASE("a PLY file reads the same as text and in both byte orders", "[read_pl
       b.add<std::uint16_t>(65535);
       const std::string format = big ? "binary_big_endian" : "binary_little_endian";
       result.push_back(
-          parse("ply\nformat " + format + " 1.0\n" + elements + "end_header\n" + b.text));
+          parse_ply("ply\nformat " + format + " 1.0\n" + elements + "end_header\n" + b.text));
     }
     return result;
   }();
@@ -107,40 +74,25 @@ TEST_CASE("a PLY file reads the same as text and in both byte orders", "[read_pl
   }
 }
 
-TEST_CASE("binary PLY data may start with a line feed, behind any kind of header line",
-          "[read_ply]") {
-  for (const std::string end : {"\n", "\r\n", "\r"}) {
-    std::string header =
-        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty char x\nproperty char y\n"
-        "property char z\nelement face 1\nproperty list uchar uchar vertex_indices\nend_header\n";
-    for (std::size_t i = header.find('\n'); i != std::string::npos;
-         i = header.find('\n', i + end.size())) {
-      header.replace(i, 1, end);
-    }
-    const TriangleMesh mesh = parse(header + std::string("\n\r\n\0\0\1\0\1\0\3\0\1\2", 13));
-    CHECK(mesh.positions[0] == Vec3(10, 13, 10));
-    CHECK(mesh.faces == std::vector<Face>{{0, 1, 2}});
-  }
-}
-
 TEST_CASE("PLY UVs come under several names, or per corner with a texture number", "[read_ply]") {
   for (const auto& [u, v] : {std::pair{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}}) {
     const std::string elements =
-        kVertices + "property float " + u + "\nproperty float " + v + "\n" + kFaces;
+        kPlyVertices + "property float " + u + "\nproperty float " + v + "\n" + kPlyFace;
     const TriangleMesh mesh =
-        parse(ascii(elements, "0 0 0 .5 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n3 0 1 2\n"));
+        parse_ply(ply_text(elements, "0 0 0 .5 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n3 0 1 2\n"));
     CHECK(mesh.uvs[0] == Vec2(0.5, 0));
     CHECK(mesh.has_uvs(0));
   }
   const TempFolder folder;
   folder.file("a b.png", "");
   const auto path = folder.file(
-      "m.ply", ascii("comment TextureFile a b.png\ncomment TextureFile c.png\n" + kVertices +
-                         "element face 4\nproperty list uchar int vertex_indices\nproperty list "
-                         "uchar float texcoord\n"
-                         "property int texnumber\n",
-                     kSquare + "4 0 1 2 3 8 0 0 .5 0 .5 .5 0 .5 1\n3 0 1 2 0 0\n3 0 1 2 6 0 0 1 0 "
-                               "nan 1 -1\n3 2 1 0 6 .1 .2 .3 .4 .5 .6 0\n"));
+      "m.ply",
+      ply_text("comment TextureFile a b.png\ncomment TextureFile c.png\n" + kPlyVertices +
+                   "element face 4\nproperty list uchar int vertex_indices\nproperty list "
+                   "uchar float texcoord\n"
+                   "property int texnumber\n",
+               kPlySquare + "4 0 1 2 3 8 0 0 .5 0 .5 .5 0 .5 1\n3 0 1 2 0 0\n3 0 1 2 6 0 0 1 0 "
+                            "nan 1 -1\n3 2 1 0 6 .1 .2 .3 .4 .5 .6 0\n"));
   ReadReport report;
   const TriangleMesh mesh = read_mesh(path, &report);
   REQUIRE(mesh.faces.size() == 5);
@@ -155,44 +107,47 @@ TEST_CASE("PLY UVs come under several names, or per corner with a texture number
 }
 
 TEST_CASE("a PLY file may have its faces before its vertices", "[read_ply]") {
-  const std::string elements = kFaces + kVertices + "property float u\nproperty float v\n";
+  const std::string elements = kPlyFace + kPlyVertices + "property float u\nproperty float v\n";
   const std::string vertices = "0 0 0 .5 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n";
-  const TriangleMesh mesh = parse(ascii(elements, "3 0 1 3\n" + vertices));
+  const TriangleMesh mesh = parse_ply(ply_text(elements, "3 0 1 3\n" + vertices));
   CHECK(mesh.faces == std::vector<Face>{{0, 1, 3}});
   CHECK(mesh.uv({0, {1, 0, 0}}) == Vec2(0.5, 0));
-  CHECK(error_of(ascii(elements, "3 0 1 4\n" + vertices)) ==
-        "m.ply: vertex index 4 is out of range (4 vertices)");
+  CHECK(error_of(ply_text(elements, "3 0 1 4\n" + vertices)) ==
+        "m.ply: face 0: vertex index 4 is out of range (4 vertices)");
 }
 
 TEST_CASE("a bad PLY file is refused", "[read_ply]") {
   const auto body = [](const std::string& text) {
-    return error_of(ascii(kVertices + kFaces, text));
+    return error_of(ply_text(kPlyVertices + kPlyFace, text));
   };
-  CHECK(body(kSquare + "3 0 1 2\n") == "no error");
-  CHECK(body(kSquare + "3 0 1 4\n") ==
+  CHECK(body(kPlySquare + "3 0 1 2\n") == "no error");
+  CHECK(body(kPlySquare + "3 0 1 4\n") ==
         "m.ply:14: face 0: vertex index 4 is out of range (4 vertices)");
-  CHECK_THAT(body(kSquare + "3 0 1 -1\n"), Contains("face 0: vertex index is negative"));
-  CHECK_THAT(body(kSquare + "3 0 1 1.5\n"), Contains("face 0: vertex index"));
-  CHECK_THAT(body(kSquare + "3 0 1 nan\n"), Contains("face 0: vertex index"));
-  CHECK_THAT(body(kSquare + "2 0 1\n"), Contains("at least 3 corners"));
-  CHECK_THAT(body(kSquare + "-3 0 1 2\n"), Contains("impossible length"));
-  CHECK_THAT(body(kSquare + "nan 0 1 2\n"), Contains("impossible length"));
-  CHECK_THAT(body(kSquare + "2000000000 0 1 2\n"), Contains("longer than the file"));
-  CHECK_THAT(body(kSquare + "3 0 1\n"), Contains("file ends before"));
+  CHECK_THAT(body(kPlySquare + "3 0 1 -1\n"), Contains("face 0: vertex index is negative"));
+  CHECK_THAT(body(kPlySquare + "3 0 1 1.5\n"), Contains("face 0: vertex index"));
+  CHECK_THAT(body(kPlySquare + "3 0 1 nan\n"), Contains("face 0: vertex index"));
+  CHECK_THAT(body(kPlySquare + "2 0 1\n"), Contains("at least 3 corners"));
+  CHECK_THAT(body(kPlySquare + "-3 0 1 2\n"), Contains("impossible length"));
+  CHECK_THAT(body(kPlySquare + "nan 0 1 2\n"), Contains("impossible length"));
+  CHECK_THAT(body(kPlySquare + "2000000000 0 1 2\n"), Contains("longer than the file"));
+  CHECK_THAT(body(kPlySquare + "3 0 1\n"), Contains("file ends before"));
   CHECK_THAT(body("0 0 0\n1 0 zero\n1 1 0\n0 1 0\n3 0 1 2\n"),
              StartsWith("m.ply:11: value is not a number: 'zero'"));
   CHECK_THAT(body("0 0 0\n1 0 nan\n1 1 0\n0 1 0\n3 0 1 2\n"),
-             Contains("vertex 1 has a coordinate that is not finite"));
+             Contains("vertex 1: has a coordinate that is not finite"));
 
-  const std::string good = ascii(kVertices + kFaces, kSquare + "3 0 1 2\n");
+  const std::string good = ply_text(kPlyVertices + kPlyFace, kPlySquare + "3 0 1 2\n");
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     return error_of(text.replace(text.find(from), from.size(), to));
   };
   CHECK_THAT(changed("ply\n", "pla\n"), StartsWith("m.ply:1: is not a PLY"));
-  CHECK_THAT(changed("end_header\n", ""), Contains("m.ply:9: unknown header line '0'"));
-  CHECK_THAT(error_of("ply\nformat ascii 1.0\n" + kVertices), Contains("no end_header"));
+  CHECK_THAT(changed("end_header\n", ""), Contains("header has no end_header"));
+  CHECK_THAT(error_of("ply\nformat ascii 1.0\n" + kPlyVertices), Contains("no end_header"));
   CHECK_THAT(changed("format ascii 1.0\n", ""), Contains("no format"));
+  CHECK_THAT(changed("format ascii 1.0\n", "format ascii 1.0\nformat ascii 1.0\n"),
+             Contains("m.ply:3: header has a second format"));
+  CHECK_THAT(changed("element face", "element vertex"), Contains("has two elements 'vertex'"));
   CHECK_THAT(changed("ascii", "ebcdic"), Contains("m.ply:2: unknown format 'ebcdic'"));
   CHECK_THAT(changed("property float x", "property half x"),
              Contains("m.ply:4: unknown type 'half'"));
@@ -207,9 +162,44 @@ TEST_CASE("a bad PLY file is refused", "[read_ply]") {
   }
   CHECK_THAT(changed("property float y", "property float w"), Contains("no y"));
   CHECK_THAT(changed("vertex_indices", "indices"), Contains("no list vertex_indices"));
-  CHECK_THAT(error_of(ascii(kVertices, kSquare)), Contains("no faces"));
-  CHECK_THAT(error_of(ascii(kFaces, "3 0 1 2\n")), Contains("no vertices"));
-  CHECK_THAT(error_of(ascii(kVertices + "element face 0\nproperty list uchar int vertex_indices\n",
-                            kSquare)),
-             Contains("no faces"));
+  CHECK_THAT(error_of(ply_text(kPlyVertices, kPlySquare)), Contains("no faces"));
+  CHECK_THAT(error_of(ply_text(kPlyFace, "3 0 1 2\n")), Contains("no vertices"));
+  CHECK_THAT(
+      error_of(ply_text(kPlyVertices + "element face 0\nproperty list uchar int vertex_indices\n",
+                        kPlySquare)),
+      Contains("no faces"));
+}
+
+TEST_CASE("a binary PLY file that ends early names the element that is cut off", "[read_ply]") {
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty char x\nproperty char "
+      "y\nproperty char z\nelement face 2\nproperty list uchar uchar vertex_indices\nend_header\n";
+  const std::string body("\0\0\0\1\0\0\0\1\0\3\0\1\2\3\0\1\2", 17);
+  CHECK(error_of(header + body) == "no error");
+  CHECK(error_of(header + body.substr(0, 16)) ==
+        "m.ply: face 1: list 'vertex_indices' is longer than the file");
+  CHECK(error_of(header + body.substr(0, 13)) ==
+        "m.ply: face 1: file ends before all its elements");
+  CHECK(error_of(header + body.substr(0, 12) + "\3") ==
+        "m.ply: face 0: vertex index 3 is out of range (3 vertices)");
+}
+
+TEST_CASE("what a PLY file holds is reported in the words of the format", "[read_ply]") {
+  ReadReport report;
+  parse_ply(
+      ply_text("comment TextureFile a.png\nelement empty 0\n" + kPlyVertices +
+                   "property float nx\nproperty float ny\nproperty float nz\nproperty uchar "
+                   "red\nproperty uchar green\nproperty uchar blue\nproperty float quality\n" +
+                   kPlyFace + "property int flags\nelement edge 1\nproperty int vertex1\n",
+               "0 0 0 0 0 1 9 9 9 .5\n1 0 0 0 0 1 9 9 9 .5\n1 1 0 0 0 1 9 9 9 .5\n0 1 0 0 0 1 "
+               "9 9 9 .5\n3 0 1 2 7\n0\nmore\n"),
+      &report);
+  CHECK(report.read ==
+        std::vector<std::string>{"format ascii 1.0", "TextureFile a.png", "4 vertex", "1 face"});
+  CHECK(report.ignored == std::vector<std::string>{"0 empty", "vertex: normals nx ny nz",
+                                                   "vertex: colours red green blue",
+                                                   "vertex: quality", "face: flags", "1 edge",
+                                                   "5 bytes behind the last element"});
+  CHECK(report.assumed.empty());
+  CHECK(report.warnings.empty());
 }

@@ -6,16 +6,22 @@
 #include <string_view>
 #include <system_error>
 
+#include "onmesh/base/text.h"
 #include "onmesh/base/text_scan.h"
+#include "onmesh/mesh_io/ply_body.h"
 
 namespace onmesh {
 namespace {
 
-std::optional<PlyType> parse_type(std::string_view name) {
+constexpr std::array<const char*, 3> kFormats = {"ascii", "binary_little_endian",
+                                                 "binary_big_endian"};
+
+std::optional<PlyType> parse_type(std::string_view text) {
   constexpr std::array<std::string_view, 8> old = {"char", "uchar", "short", "ushort",
                                                    "int",  "uint",  "float", "double"};
   constexpr std::array<std::string_view, 8> sized = {"int8",  "uint8",  "int16",   "uint16",
                                                      "int32", "uint32", "float32", "float64"};
+  const std::string name = lower_case(text);
   for (std::size_t i = 0; i < old.size(); ++i) {
     if (name == old[i] || name == sized[i]) return static_cast<PlyType>(i);
   }
@@ -24,10 +30,21 @@ std::optional<PlyType> parse_type(std::string_view name) {
 
 PlyFormat read_format(TextScan& scan) {
   const std::string_view format = scan.token();
-  if (format == "ascii") return PlyFormat::ascii;
-  if (format == "binary_little_endian") return PlyFormat::little;
-  if (format == "binary_big_endian") return PlyFormat::big;
+  for (std::size_t i = 0; i < kFormats.size(); ++i) {
+    if (lower_case(format) == kFormats[i]) return static_cast<PlyFormat>(i);
+  }
   scan.fail("unknown format " + quote(format));
+}
+
+/// What follows "comment" or "obj_info".
+void read_comment(TextScan& scan, PlyHeader& header) {
+  const std::string first = lower_case(scan.token());
+  if (first != "texturefile" && first != "texturefile:") return;
+  std::string_view name = scan.rest_of_line();
+  if (first == "texturefile" && name.starts_with(": ")) {
+    name.remove_prefix(std::min(name.size(), name.find_first_not_of(" \t", 1)));
+  }
+  header.textures.emplace_back(name);
 }
 
 PlyElement read_element(TextScan& scan) {
@@ -45,7 +62,7 @@ PlyElement read_element(TextScan& scan) {
 PlyProperty read_property(TextScan& scan) {
   PlyProperty property;
   std::string_view type = scan.token();
-  if (type == "list") {
+  if (lower_case(type) == "list") {
     const std::string_view count = scan.token();
     property.count = parse_type(count);
     if (!property.count) scan.fail("unknown type " + quote(count));
@@ -60,18 +77,9 @@ PlyProperty read_property(TextScan& scan) {
   return property;
 }
 
-/// One past the line end behind end_header.
-/// \param at in the line of end_header
-std::size_t find_body(const std::string& content, std::size_t at) {
-  // By hand: in binary data a line feed may follow that is not the header's.
-  while (at < content.size() && content[at] != '\n' && content[at] != '\r') ++at;
-  const std::size_t first_end = content.find_first_of("\r\n");
-  const bool crlf =
-      content.compare(first_end, 2, "\r\n") == 0 && content.compare(at, 2, "\r\n") == 0;
-  return std::min(content.size(), at + (crlf ? 2 : 1));
-}
-
 }  // namespace
+
+const char* format_name(PlyFormat format) { return kFormats[static_cast<std::size_t>(format)]; }
 
 std::size_t size_of(PlyType type) {
   constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
@@ -80,31 +88,36 @@ std::size_t size_of(PlyType type) {
 
 PlyHeader read_ply_header(const std::string& content, const std::string& file) {
   TextScan scan(content, file, Syntax::plain);
-  if (scan.rest_of_line() != "ply") scan.fail("is not a PLY file (does not start with 'ply')");
+  if (lower_case(scan.rest_of_line()) != "ply") {
+    scan.fail("is not a PLY file (does not start with 'ply')");
+  }
   scan.next_line();
   PlyHeader header;
   bool has_format = false;
   for (;; scan.next_line()) {
     if (scan.at_end()) scan.fail("header has no end_header");
-    const std::string_view keyword = scan.token();
+    const std::string keyword = lower_case(scan.token());
     if (keyword == "end_header") break;
     if (keyword == "format") {
+      if (has_format) scan.fail("header has a second format");
       header.format = read_format(scan);
+      header.version = scan.token();
       has_format = true;
     } else if (keyword == "comment" || keyword == "obj_info") {
-      if (scan.token() == "TextureFile") header.textures.emplace_back(scan.rest_of_line());
+      read_comment(scan, header);
     } else if (keyword == "element") {
       header.elements.push_back(read_element(scan));
     } else if (keyword == "property") {
       if (header.elements.empty()) scan.fail("property before any element");
       header.elements.back().properties.push_back(read_property(scan));
-    } else if (!keyword.empty()) {
-      scan.fail("unknown header line " + quote(keyword));
+    } else if (++header.stray_lines == 1) {
+      header.first_stray_line = scan.line();
     }
   }
   if (!has_format) scan.fail("header has no format");
-  header.size = find_body(content, static_cast<std::size_t>(scan.position() - content.data()));
   header.lines = scan.line();
+  header.size =
+      find_ply_body(content, header, static_cast<std::size_t>(scan.position() - content.data()));
   return header;
 }
 

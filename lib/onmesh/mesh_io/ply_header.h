@@ -31,19 +31,24 @@ enum class PlyFormat { ascii, little, big };
 /// What stands above the body of a PLY file.
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
+  std::string version;  ///< of the format, as the file has it
   std::vector<PlyElement> elements;
   std::vector<std::string> textures;  ///< of comments "TextureFile NAME"
   std::size_t size = 0;               ///< bytes, with end_header's line end
   std::size_t lines = 0;
+  std::size_t stray_lines = 0;  ///< blank ones and those of no known keyword, which are skipped
+  std::size_t first_stray_line = 0;  ///< its number, from 1
 };
+
+/// The name that headers give the format.
+const char* format_name(PlyFormat format);
 
 /// Bytes of a value in a binary file.
 std::size_t size_of(PlyType type);
 
-/// Read the header.
-/// \param content of the file
-/// \param file its name, for messages
-/// \throw InputError naming file and line if the header is malformed or does not end
+/// Read the header. Lines may end in any way, each in its own; keywords and types may be in
+/// capitals. \param content of the file \param file its name, for messages \throw InputError naming
+/// file and line if the header is malformed or does not end
 PlyHeader read_ply_header(const std::string& content, const std::string& file);
 
 }  // namespace onmesh

@@ -16,6 +16,17 @@
 
 namespace onmesh {
 
+/// Which element is being read, for messages.
+struct PlyPlace {
+  std::string_view element;  ///< its kind
+  std::uint64_t number = 0;  ///< from 0
+
+  /// "face 3: "; empty if there is no element.
+  std::string text() const {
+    return element.empty() ? "" : std::string(element) + " " + std::to_string(number) + ": ";
+  }
+};
+
 /// Values of a text body.
 class PlyTextValues {
  public:
@@ -45,17 +56,26 @@ class PlyTextValues {
     return values == 0 || count <= (scan_.remaining() + 1) / (2 * values);
   }
 
-  /// \throw InputError naming file and line
-  [[noreturn]] void fail(const std::string& what) const { scan_.fail(what); }
+  /// Bytes behind the values so far, without blanks.
+  std::size_t rest() {
+    while (!scan_.skip_blank() && !scan_.at_end()) scan_.next_line();
+    return scan_.remaining();
+  }
+
+  /// The element that values are of from now on.
+  void set_place(const PlyPlace& place) { place_ = place; }
+  /// \throw InputError naming file, line and element
+  [[noreturn]] void fail(const std::string& what) const { scan_.fail(place_.text() + what); }
 
  private:
   std::string_view token() {
     const std::string_view token = scan_.token_anywhere();
-    if (token.empty()) scan_.fail("file ends before all its elements");
+    if (token.empty()) fail("file ends before all its elements");
     return token;
   }
 
   TextScan scan_;
+  PlyPlace place_;
   PrintedPrecision printed_;
 };
 
@@ -70,7 +90,7 @@ class PlyBinaryValues {
         file_(file) {}
 
   /// The next value, which is of this type.
-  /// \throw InputError naming the file if there is none
+  /// \throw InputError naming file and element if there is none
   double next(PlyType type) {
     switch (type) {
       case PlyType::i8:
@@ -107,8 +127,15 @@ class PlyBinaryValues {
     return bytes == 0 || count <= static_cast<std::size_t>(end_ - at_) / bytes;
   }
 
-  /// \throw InputError naming the file
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(file_ + ": " + what); }
+  /// Bytes behind the values so far.
+  std::size_t rest() const { return static_cast<std::size_t>(end_ - at_); }
+
+  /// The element that values are of from now on.
+  void set_place(const PlyPlace& place) { place_ = place; }
+  /// \throw InputError naming file and element
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(file_ + ": " + place_.text() + what);
+  }
 
  private:
   template <class T>
@@ -124,6 +151,7 @@ class PlyBinaryValues {
   const char* end_;
   std::endian order_;
   std::string file_;
+  PlyPlace place_;
 };
 
 }  // namespace onmesh

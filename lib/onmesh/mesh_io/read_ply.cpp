@@ -7,9 +7,12 @@
 #include <utility>
 
 #include "onmesh/base/error.h"
+#include "onmesh/base/text.h"
 #include "onmesh/base/text_scan.h"
 #include "onmesh/mesh_io/find_texture.h"
+#include "onmesh/mesh_io/ply_faces.h"
 #include "onmesh/mesh_io/ply_header.h"
+#include "onmesh/mesh_io/ply_properties.h"
 #include "onmesh/mesh_io/ply_values.h"
 #include "onmesh/mesh_io/polygon_mesh.h"
 
@@ -21,10 +24,13 @@ template <class Values>
 class PlyReader {
  public:
   PlyReader(Values values, const PlyHeader& header, std::string file, ReadReport& report)
-      : values_(std::move(values)), header_(header), file_(std::move(file)), report_(report) {}
+      : values_(std::move(values)),
+        header_(header),
+        file_(std::move(file)),
+        report_(report),
+        faces_(file_, header.textures.size()) {}
 
   PolygonMesh run() {
-    bool has_faces = false;
     for (const PlyElement& element : header_.elements) {
       std::size_t bytes = 0;
       for (const PlyProperty& p : element.properties) bytes += size_of(p.count.value_or(p.type));
@@ -32,31 +38,46 @@ class PlyReader {
         refuse("header promises " + std::to_string(element.count) + " times " +
                quote(element.name) + ", the file is too short for them");
       }
-      if (element.name == "vertex" && !vertices_known_) {
-        vertices_known_ = true;
+      const std::string kind = lower_case(element.name);
+      if (kind == "vertex") {
         read_vertices(element);
-      } else if (element.name == "face" && !has_faces) {
-        has_faces = true;
-        read_faces(element);
-      } else if (!element.properties.empty()) {
-        for (std::uint64_t i = 0; i < element.count; ++i) {
-          for (const PlyProperty& p : element.properties) skip(p);
-        }
+      } else if (kind == "face") {
+        read_faces(element, false);
+      } else if (kind == "tristrips" || kind == "tristrip") {
+        read_faces(element, true);
+      } else {
+        skip(element);
       }
     }
     if (!vertices_known_) refuse("has no vertices");
-    if (!has_faces) refuse("has no faces (point clouds and triangle strips are not read)");
-    finish();
-    return std::move(out_);
+    if (!has_faces_) refuse("has no faces (point clouds are not read)");
+    if (const std::size_t rest = values_.rest(); rest > 0) {
+      report_.ignored.push_back(count_text(rest, "byte", "bytes") + " behind the last element");
+    }
+    return faces_.finish(std::move(vertices_), report_);
   }
 
  private:
   /// For what no single value of the body is to blame for.
   [[noreturn]] void refuse(const std::string& what) const { throw InputError(file_ + ": " + what); }
 
+  /// Note what the header says of the element, as the header says it.
+  static std::string counted(const PlyElement& element) {
+    return std::to_string(element.count) + " " + element.name;
+  }
+
   void skip(const PlyProperty& p) {
     const std::size_t n = p.count ? list_length(p) : 1;
     for (std::size_t i = 0; i < n; ++i) values_.next(p.type);
+  }
+
+  void skip(const PlyElement& element) {
+    report_.ignored.push_back(counted(element));
+    if (element.properties.empty()) return;
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      values_.set_place({element.name, i});
+      for (const PlyProperty& p : element.properties) skip(p);
+    }
   }
 
   std::size_t list_length(const PlyProperty& p) {
@@ -72,166 +93,135 @@ class PlyReader {
     return length;
   }
 
-  /// What is read of a vertex, and where its values go.
-  enum Slot : std::size_t { kX, kY, kZ, kU, kV, kUnwanted };
-
-  /// The slot of every property; notes whether vertices have UVs.
-  std::vector<Slot> choose_slots(const PlyElement& element) {
-    const std::size_t none = element.properties.size();
-    const auto find = [&](std::string_view name) {
-      for (std::size_t i = 0; i < none; ++i) {
-        if (element.properties[i].name == name && !element.properties[i].count) return i;
-      }
-      return none;
-    };
-    std::vector<Slot> slots(none, kUnwanted);
-    for (const auto& [name, slot] : {std::pair{"x", kX}, {"y", kY}, {"z", kZ}}) {
-      if (find(name) == none) refuse(std::string("vertices have no ") + name);
-      slots[find(name)] = slot;
-    }
-    constexpr std::array<std::array<std::string_view, 2>, 3> uv_names = {
-        {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}}};
-    for (const auto& [u, v] : uv_names) {
-      if (find(u) == none || find(v) == none) continue;
-      slots[find(u)] = kU;
-      slots[find(v)] = kV;
-      vertex_uvs_ = true;
-      break;
-    }
-    return slots;
-  }
-
-  void read_vertices(const PlyElement& element) {
-    const std::vector<Slot> slots = choose_slots(element);
-    if (element.count >= kNone) refuse("has more vertices than 32 bits can count");
-    out_.mesh.positions.reserve(element.count);
-    if (vertex_uvs_) out_.mesh.uvs.reserve(element.count);
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      std::array<double, kUnwanted> v{};
-      for (std::size_t k = 0; k < slots.size(); ++k) {
-        if (slots[k] == kUnwanted) {
-          skip(element.properties[k]);
-        } else {
-          const PlyType type = element.properties[k].type;
-          v[slots[k]] = slots[k] <= kZ ? values_.next_coordinate(type) : values_.next(type);
-        }
-      }
-      const Vec3 p(v[kX], v[kY], v[kZ]);
-      if (!p.allFinite())
-        values_.fail("vertex " + std::to_string(i) + " has a coordinate that is not finite");
-      out_.mesh.positions.push_back(p);
-      if (vertex_uvs_) out_.mesh.uvs.emplace_back(v[kU], v[kV]);
-    }
-    out_.mesh.precision = values_.precision();
-  }
-
-  void read_faces(const PlyElement& element) {
-    const bool has_corners = std::any_of(element.properties.begin(), element.properties.end(),
-                                         [](const PlyProperty& p) { return is_corners(p); });
-    if (!has_corners) refuse("faces have no list vertex_indices");
-    out_.polygon_end.reserve(element.count);
-    Face face;
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      read_face(element, face);
-      add_face(face, i);
-    }
-  }
-
-  /// A face as the file has it.
-  struct Face {
-    std::vector<double> corners;  ///< vertex indices
-    std::vector<double> uvs;      ///< two per corner, or none
-    Index material = kNone;
-  };
-
-  void read_face(const PlyElement& element, Face& face) {
-    face.corners.clear();
-    face.uvs.clear();
-    face.material = header_.textures.empty() ? kNone : 0;
-    for (const PlyProperty& p : element.properties) {
-      if (is_corners(p)) {
-        read_list(p, face.corners);
-      } else if (p.name == "texcoord" && p.count) {
-        read_list(p, face.uvs);
-      } else if (p.name == "texnumber" && !p.count) {
-        const double number = values_.next(p.type);
-        const bool known = number >= 0 && number < static_cast<double>(header_.textures.size());
-        face.material = known ? static_cast<Index>(number) : kNone;
-      } else {
-        skip(p);
-      }
-    }
-  }
-
-  void add_face(const Face& face, std::uint64_t number) {
-    const auto fail = [&](const std::string& what) {
-      values_.fail("face " + std::to_string(number) + ": " + what);
-    };
-    const std::size_t corners = face.corners.size();
-    if (corners < 3) fail("needs at least 3 corners, here are " + std::to_string(corners));
-    if (!face.uvs.empty() && face.uvs.size() != 2 * corners) {
-      fail("has " + std::to_string(corners) + " corners but " + std::to_string(face.uvs.size()) +
-           " texture coordinates");
-    }
-    for (std::size_t k = 0; k < corners; ++k) {
-      const double v = face.corners[k];
-      if (!(v >= 0 && v < kNone) || v != std::floor(v))
-        fail("vertex index is negative or no index");
-      const auto vertex = static_cast<Index>(v);
-      if (vertices_known_ && vertex >= out_.mesh.positions.size()) fail(out_of_range(vertex));
-      out_.add_corner(vertex, face.uvs.empty() ? kNone : kPerCorner);
-      if (!face.uvs.empty()) corner_uvs_.emplace_back(face.uvs[2 * k], face.uvs[2 * k + 1]);
-    }
-    out_.end_polygon(face.material);
-  }
-
-  static bool is_corners(const PlyProperty& p) {
-    return p.count && (p.name == "vertex_indices" || p.name == "vertex_index");
-  }
-
   void read_list(const PlyProperty& p, std::vector<double>& values) {
-    const std::size_t n = list_length(p);
-    values.resize(n);
+    values.resize(list_length(p));
     for (double& v : values) v = values_.next(p.type);
   }
 
-  std::string out_of_range(Index vertex) const {
-    return "vertex index " + std::to_string(vertex) + " is out of range (" +
-           std::to_string(out_.mesh.positions.size()) + " vertices)";
+  void read_vertices(const PlyElement& element) {
+    if (vertices_known_) refuse("has two elements " + quote(element.name));
+    vertices_known_ = true;
+    report_.read.push_back(counted(element));
+    const VertexProperties properties = vertex_properties(element, report_);
+    const std::vector<VertexValue>& slots = properties.values;
+    for (const auto& [value, name] :
+         {std::pair{VertexValue::x, "x"}, {VertexValue::y, "y"}, {VertexValue::z, "z"}}) {
+      if (std::find(slots.begin(), slots.end(), value) == slots.end())
+        refuse(std::string("vertices have no ") + name);
+    }
+    if (element.count >= kNone) refuse("has more vertices than 32 bits can count");
+    PlyType texture_type = PlyType::i32;
+    for (std::size_t k = 0; k < slots.size(); ++k) {
+      if (slots[k] == VertexValue::texture) texture_type = element.properties[k].type;
+    }
+    const bool has_uvs = !properties.uv_names.empty(), has_texture = properties.has_texture;
+    vertices_.uv_names = properties.uv_names;
+    vertices_.positions.reserve(element.count);
+    if (has_uvs) vertices_.uvs.reserve(element.count);
+    if (has_texture) vertices_.textures.reserve(element.count);
+    constexpr auto kUnwanted = static_cast<std::size_t>(VertexValue::unwanted);
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      values_.set_place({element.name, i});
+      std::array<double, kUnwanted> v{};
+      for (std::size_t k = 0; k < slots.size(); ++k) {
+        const PlyProperty& p = element.properties[k];
+        const VertexValue slot = slots[k];
+        if (slot == VertexValue::unwanted) {
+          skip(p);
+        } else if (slot <= VertexValue::z) {
+          v[static_cast<std::size_t>(slot)] = values_.next_coordinate(p.type);
+        } else {
+          v[static_cast<std::size_t>(slot)] = values_.next(p.type);
+        }
+      }
+      const Vec3 position(v[0], v[1], v[2]);
+      if (!position.allFinite()) values_.fail("has a coordinate that is not finite");
+      vertices_.positions.push_back(position);
+      if (has_uvs) vertices_.uvs.emplace_back(v[3], v[4]);
+      if (has_texture) vertices_.textures.push_back(faces_.texture(v[5], texture_type));
+    }
+    vertices_.precision = values_.precision();
+    faces_.set_vertex_count(vertices_.positions.size());
   }
 
-  /// Check what can only be checked once vertices and faces are known, in whatever order they came.
-  void finish() {
-    for (const Index corner : out_.corners) {
-      if (corner >= out_.mesh.positions.size()) refuse(out_of_range(corner));
+  void read_faces(const PlyElement& element, bool strips) {
+    has_faces_ = true;
+    report_.read.push_back(counted(element));
+    const FaceProperties properties = face_properties(element, strips, report_);
+    if (!properties.has_corners && element.count > 0) {
+      refuse(quote(element.name) + " has no list vertex_indices");
     }
-    if (out_.mesh.uvs.size() + corner_uvs_.size() >= kPerCorner) {
-      refuse("has more texture coordinates than 32 bits can count");
+    faces_.begin(element, properties, strips);
+    PlyType index_type = PlyType::i32;
+    for (std::size_t k = 0; k < element.properties.size(); ++k) {
+      if (properties.values[k] == FaceValue::corners) index_type = element.properties[k].type;
     }
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < out_.corners.size(); ++i) {
-      Index& uv = out_.corner_uvs[i];
-      if (uv == kPerCorner) {
-        uv = static_cast<Index>(out_.mesh.uvs.size());
-        out_.mesh.uvs.push_back(corner_uvs_[next++]);
-      } else if (vertex_uvs_) {
-        uv = out_.corners[i];
+    PlyFace face;
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      values_.set_place({element.name, i});
+      read_face(element, properties.values, face);
+      const std::string fault = strips ? faces_.add_strip(face, index_type) : faces_.add_face(face);
+      if (!fault.empty()) values_.fail(fault);
+    }
+  }
+
+  void read_face(const PlyElement& element, const std::vector<FaceValue>& slots, PlyFace& face) {
+    face.textures.clear();
+    for (std::size_t k = 0; k < slots.size(); ++k) {
+      const PlyProperty& p = element.properties[k];
+      switch (slots[k]) {
+        case FaceValue::corners:
+          read_list(p, face.corners);
+          break;
+        case FaceValue::uvs:
+          read_list(p, face.uvs);
+          break;
+        case FaceValue::texture:
+          face.textures.push_back(faces_.texture(values_.next(p.type), p.type));
+          break;
+        case FaceValue::textures:
+          for (std::size_t n = list_length(p); n > 0; --n) {
+            face.textures.push_back(faces_.texture(values_.next(p.type), p.type));
+          }
+          break;
+        case FaceValue::unwanted:
+          skip(p);
+          break;
       }
     }
-    drop_missing_uvs(out_, file_, report_);
   }
-
-  static constexpr Index kPerCorner = kNone - 1;  // has a UV of its own, in corner_uvs_
 
   Values values_;
   const PlyHeader& header_;
   std::string file_;
   ReadReport& report_;
-  PolygonMesh out_;
-  std::vector<Vec2> corner_uvs_;
+  PlyFaces faces_;
+  PlyVertices vertices_;
   bool vertices_known_ = false;
-  bool vertex_uvs_ = false;
+  bool has_faces_ = false;
 };
+
+/// Note what the header says and the warnings of its lines.
+void report_header(const PlyHeader& header, const std::string& file, ReadReport& report) {
+  report.read.push_back(std::string("format ") + format_name(header.format) + " " + header.version);
+  for (const std::string& texture : header.textures) {
+    report.read.push_back("TextureFile " + texture);
+  }
+  if (header.stray_lines == 0) return;
+  report.warnings.push_back(file + ":" + std::to_string(header.first_stray_line) + ": " +
+                            count_text(header.stray_lines, "header line is", "header lines are") +
+                            " blank or of no known keyword, from this one on; ignored");
+}
+
+/// The name of a texture, in which "<this>" stands for the mesh's own name without extension.
+std::string texture_name(std::string name, const std::string& stem) {
+  constexpr std::string_view kThis = "<this>";
+  for (std::size_t at = name.find(kThis); at != std::string::npos;
+       at = name.find(kThis, at + stem.size())) {
+    name.replace(at, kThis.size(), stem);
+  }
+  return name;
+}
 
 }  // namespace
 
@@ -239,15 +229,21 @@ TriangleMesh read_ply(const std::filesystem::path& path, const std::string& cont
                       const ReadOptions& /*options*/, ReadReport& report) {
   const std::string file = path.string();
   const PlyHeader header = read_ply_header(content, file);
+  report_header(header, file, report);
   PolygonMesh polygons;
   if (header.format == PlyFormat::ascii) {
     polygons = PlyReader(PlyTextValues(content, header, file), header, file, report).run();
   } else {
     polygons = PlyReader(PlyBinaryValues(content, header, file), header, file, report).run();
   }
+  const std::string stem = path.stem().string();
+  bool stands_for_stem = false;
   for (const std::string& texture : header.textures) {
-    polygons.mesh.materials.push_back({texture, find_texture(texture, path.parent_path())});
+    const std::string name = texture_name(texture, stem);
+    stands_for_stem |= name != texture;
+    polygons.mesh.materials.push_back({texture, find_texture(name, path.parent_path())});
   }
+  if (stands_for_stem) report.assumed.push_back("<this> in TextureFile stands for " + stem);
   return triangulate(std::move(polygons), file);
 }
 
