@@ -62,7 +62,7 @@ Atlas read_atlas(TextureSet set, const TriangleMesh& mesh, Wrap wrap) {
   Atlas atlas;
   atlas.set = std::move(set);
   for (const SetTexture& texture : atlas.set.textures) {
-    atlas.images.push_back(read_texture(texture.path, atlas.warnings));
+    atlas.images.push_back(read_texture(texture, atlas.warnings));
     check_interrupted();
   }
   const SurfaceTextures textures = surface_textures(atlas.set, atlas.images, wrap);

@@ -10,14 +10,17 @@
 
 #include "atlas.h"
 #include "filter_report.h"
+#include "gltf_results.h"
 #include "flags.h"
 #include "inputs.h"
 #include "interruption.h"
 #include "messages.h"
 #include "onmesh/base/atomic_file.h"
 #include "onmesh/base/process_memory.h"
+#include "onmesh/image/channels.h"
 #include "onmesh/image/image_io.h"
 #include "onmesh/mesh_io/read_mesh.h"
+#include "onmesh/mesh_io/write_gltf.h"
 #include "output_names.h"
 #include "report.h"
 #include "shared_options.h"
@@ -45,11 +48,14 @@ Command filter_command() {
       "  onmesh filter model.obj -o blurred.exr --kind gaussian --sigma-spatial 1%\n"
       "  onmesh filter figure.obj -o smooth/ --material skin\n"
       "  onmesh filter figure.obj -t 'skin.<UDIM>.png' -o 'smooth.<UDIM>.png' --only 1001,1002\n"
+      "  onmesh filter scene.glb -o smooth.glb\n"
+      "  onmesh filter scene.glb --uv-set 1 -t lightmap.exr -o lightmap_smooth.exr\n"
       "  onmesh filter model.obj -o smooth.png --dry-run\n";
   auto add = command.options.add_options();
   add("mesh", text());
   add("output,o", text(),
-      "what to write: a file (may be the input texture itself), a folder/ for results under their "
+      "what to write: an image (may be the input texture itself), the glTF file with its images "
+      "replaced, a folder/ for results under their "
       "own names, or a name with <UDIM>, <UVTILE>, {stem}, {material} or {ext}");
   add("texture,t", texts(),
       "a texture to filter, also with <UDIM>, <UVTILE> or {material} in its name; may be given "
@@ -170,11 +176,15 @@ struct FilterInputs {
   TriangleMesh mesh;
   TextureSet set;
   std::vector<Image> images;  ///< per texture of the set
+  std::vector<Image> parts;   ///< of the images the channels that are filtered; empty = all
+  std::vector<std::vector<int>> channels;  ///< per texture the parts' channels
   Wrap wrap = Wrap::repeat;
   std::vector<StageTime> stages;
   std::vector<std::string> warnings;
 
-  SurfaceTextures textures() const { return surface_textures(set, images, wrap); }
+  SurfaceTextures textures() const {
+    return surface_textures(set, parts.empty() ? images : parts, wrap);
+  }
 };
 
 /// Writing over a texture is fine (it is replaced at the end), over the mesh never.
@@ -210,6 +220,24 @@ std::vector<int> tiles_of(const Arguments& arguments) {
   return tiles;
 }
 
+/// Leave the channels of other slots out of what is filtered.
+void choose_channels(TextureSlot slot, FilterInputs& inputs) {
+  if (channels_of_slot(slot, 3).empty()) return;
+  for (const Image& image : inputs.images) {
+    inputs.channels.push_back(channels_of_slot(slot, image.channels));
+    inputs.parts.push_back(take_channels(image, inputs.channels.back()));
+  }
+}
+
+/// The results with the channels that were left out, as they were.
+void put_together(const FilterInputs& inputs, std::vector<Image>& results) {
+  for (std::size_t i = 0; i < inputs.parts.size(); ++i) {
+    Image whole = inputs.images[i];
+    put_channels(results[i], inputs.channels[i], whole);
+    results[i] = std::move(whole);
+  }
+}
+
 FilterInputs read_inputs(const Arguments& arguments, Stopwatch& watch) {
   FilterInputs inputs;
   inputs.mesh_path = arguments.argument("mesh");
@@ -227,9 +255,10 @@ FilterInputs read_inputs(const Arguments& arguments, Stopwatch& watch) {
   inputs.warnings.insert(inputs.warnings.end(), inputs.set.warnings.begin(),
                          inputs.set.warnings.end());
   for (const SetTexture& texture : inputs.set.textures) {
-    inputs.images.push_back(read_texture(texture.path, inputs.warnings));
+    inputs.images.push_back(read_texture(texture, inputs.warnings));
     check_interrupted();
   }
+  choose_channels(slot_of(arguments), inputs);
   inputs.stages.push_back(stage("read texture", watch));
   return inputs;
 }
@@ -295,6 +324,19 @@ void tell_plan(const Arguments& arguments, const FilterOptions& options, FilterI
   print_report(std::move(out));
 }
 
+void write_results(const std::string& output, const OutputNames& outputs,
+                   const std::vector<Image>& results, FilterInputs& inputs) {
+  if (is_gltf_name(output)) {
+    write_into_gltf(output, inputs.mesh_path, inputs.set, inputs.images, results, inputs.warnings);
+    return;
+  }
+  std::vector<ImageFile> files;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (!outputs.paths[i].empty()) files.push_back({outputs.paths[i], &results[i]});
+  }
+  write_images(files, {}, &inputs.warnings);
+}
+
 void filter_and_write(const Arguments& arguments, const FilterOptions& options,
                       FilterInputs& inputs, const OutputNames& outputs, json out,
                       Stopwatch& watch) {
@@ -307,14 +349,11 @@ void filter_and_write(const Arguments& arguments, const FilterOptions& options,
       return filter(inputs.mesh, inputs.textures(), options, &report, bar.callback());
     });
   }
+  put_together(inputs, results);
   watch.lap();
   check_interrupted();
   add_warnings(report.warnings, inputs.warnings);
-  std::vector<ImageFile> files;
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    if (!outputs.paths[i].empty()) files.push_back({outputs.paths[i], &results[i]});
-  }
-  write_images(files, {}, &inputs.warnings);
+  write_results(arguments.text("output"), outputs, results, inputs);
   report.stages.insert(report.stages.begin(), inputs.stages.begin(), inputs.stages.end());
   report.stages.push_back(stage("write texture", watch));
   if (!quiet) {
@@ -339,10 +378,14 @@ int run_filter(const Arguments& arguments) {
 
   Stopwatch watch;
   FilterInputs inputs = read_inputs(arguments, watch);
-  const OutputNames outputs = output.empty() ? OutputNames{} : name_outputs(inputs.set, output);
+  const bool into_gltf = is_gltf_name(output);
+  const OutputNames outputs =
+      output.empty() ? OutputNames{}
+      : into_gltf    ? name_gltf_outputs(inputs.set, inputs.mesh, inputs.mesh_path, output)
+                     : name_outputs(inputs.set, output);
   std::optional<AtomicFolder> folder;
   if (!outputs.folder.empty()) folder.emplace(outputs.folder);
-  check_outputs(outputs, inputs);
+  if (!into_gltf) check_outputs(outputs, inputs);
   json out = report_start(arguments, inputs, outputs);
   if (dry_run) {
     tell_plan(arguments, options, inputs, std::move(out));

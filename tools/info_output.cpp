@@ -61,7 +61,7 @@ nlohmann::json cleaning_json(const CleanReport& c) {
 
 bool texture_exists(const Material& material) {
   std::error_code error;
-  return std::filesystem::is_regular_file(material.texture, error);
+  return material.content || std::filesystem::is_regular_file(material.texture, error);
 }
 
 void row(const std::string& name, const std::string& value) {

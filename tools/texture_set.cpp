@@ -5,7 +5,9 @@
 #include <map>
 #include <set>
 
+#include "messages.h"
 #include "onmesh/base/text.h"
+#include "onmesh/image/image_io.h"
 #include "tile_names.h"
 
 namespace onmesh::tools {
@@ -21,6 +23,15 @@ bool same_file(const fs::path& a, const fs::path& b) {
 bool is_file(const fs::path& path) {
   std::error_code error;
   return fs::exists(path, error) && !fs::is_directory(path, error);
+}
+
+/// What a texture's file holds if it is inside the mesh file; null if it is a file.
+std::shared_ptr<const std::string> content_inside(const TriangleMesh& mesh, const fs::path& path) {
+  const auto inside =
+      std::find_if(mesh.materials.begin(), mesh.materials.end(), [&](const Material& material) {
+        return material.content && path == fs::path(material.texture);
+      });
+  return inside == mesh.materials.end() ? nullptr : inside->content;
 }
 
 /// Materials that some face uses.
@@ -135,19 +146,20 @@ void SetBuilder::add(const Group& group) {
   const auto is_beyond = [&](Index f) { return square_of(mesh_, f) != std::pair(0.0, 0.0); };
   const std::optional<TileName> name = tile_name(group.path);
   const bool is_tiled =
-      name && (name->is_pattern || std::any_of(faces.begin(), faces.end(), is_beyond));
+      name && !content_inside(mesh_, group.path) && (name->is_pattern || std::any_of(faces.begin(), faces.end(), is_beyond));
   if (is_tiled) {
     add_tiles(group, *name, faces);
     return;
   }
   const std::string material =
       group.materials.empty() ? "" : mesh_.materials[group.materials[0]].name;
-  if (!is_file(group.path)) {
+  const auto content = content_inside(mesh_, group.path);
+  if (!content && !is_file(group.path)) {
     throw FileError((material.empty() ? "" : "material " + material + ": ") + group.path.string() +
                     ": the texture does not exist");
   }
   for (const Index f : faces) set_.tile_of_face[f] = Index(set_.textures.size());
-  set_.textures.push_back({group.path, material, 0, group.is_written});
+  set_.textures.push_back({group.path, material, 0, group.is_written, content});
 }
 
 void SetBuilder::add_tiles(const Group& group, const TileName& name,
@@ -353,6 +365,12 @@ std::vector<Index> faces_of_material(const TriangleMesh& mesh,
       faces[f] = kNone;
   }
   return faces;
+}
+
+Image read_texture(const SetTexture& texture, std::vector<std::string>& warnings) {
+  if (!texture.content) return read_texture(texture.path, warnings);
+  const QuietLibraries quiet;
+  return read_image_content(*texture.content, texture.path, &warnings);
 }
 
 void keep_written(TextureSet& set) {

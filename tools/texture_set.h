@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,10 +15,11 @@ namespace onmesh::tools {
 
 /// One file of the set.
 struct SetTexture {
-  std::filesystem::path path;
+  std::filesystem::path path;  ///< of one inside the mesh file a name: scene.glb/wood.png
   std::string material;    ///< the first one that names it; empty if none does
   int udim = 0;            ///< UDIM tile, 1001 to 9999; 0 = not a tile of several
   bool is_written = true;  ///< else it is context: read, filtered, not written
+  std::shared_ptr<const std::string> content = nullptr;  ///< if it is inside the mesh file
 
   int column() const { return udim == 0 ? 0 : (udim - 1001) % 10; }
   int row() const { return udim == 0 ? 0 : (udim - 1001) / 10; }
@@ -54,6 +56,11 @@ TextureSet choose_textures(const TriangleMesh& mesh, const TextureRequest& reque
 /// \throw UsageError if no face has that material
 std::vector<Index> faces_of_material(const TriangleMesh& mesh,
                                      const std::optional<std::string>& material);
+
+/// The image of a texture.
+/// \param warnings receives what is odd about its file
+/// \throw FileError, InputError as read_image()
+Image read_texture(const SetTexture& texture, std::vector<std::string>& warnings);
 
 /// Forget the textures that are not written, and that faces carry them.
 void keep_written(TextureSet& set);

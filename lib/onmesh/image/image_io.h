@@ -82,6 +82,10 @@ struct ImageFile {
 void write_images(const std::vector<ImageFile>& files, const ImageWriteOptions& options = {},
                   std::vector<std::string>* warnings = nullptr);
 
+/// Whether write_image() would write the same pixels of both, in the depth of the file that `before`
+/// comes from.
+bool has_same_pixels(const Image& before, const Image& after);
+
 /// Throw now if write_image() could not write `image` to `path` later.
 ///
 /// \throw FileError for an unknown extension, a missing or read-only folder, or if it is a folder
