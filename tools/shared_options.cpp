@@ -3,8 +3,19 @@
 #include <string>
 
 #include "command.h"
+#include "onmesh/mesh_io/write_gltf.h"
 
 namespace onmesh::tools {
+namespace {
+
+void require_gltf(const Arguments& arguments, const std::string& option) {
+  if (arguments.given(option) && !is_gltf_name(arguments.text("mesh"))) {
+    throw UsageError(dashed(option) + ": only for glTF, and " + arguments.text("mesh") +
+                     " is another mesh");
+  }
+}
+
+}  // namespace
 
 Wrap wrap_of(const Arguments& arguments) {
   return arguments.choice<Wrap>("wrap", {{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}});
@@ -29,6 +40,38 @@ DistanceMethod distance_of(const Arguments& arguments) {
   } catch (const UsageError& error) {
     throw UsageError(std::string("--distance: ") + error.what());
   }
+}
+
+TextureSlot slot_of(const Arguments& arguments) {
+  require_gltf(arguments, "slot");
+  return arguments.choice<TextureSlot>("slot",
+                                       {{"baseColor", TextureSlot::base_colour},
+                                        {"occlusion", TextureSlot::occlusion},
+                                        {"emissive", TextureSlot::emissive},
+                                        {"metallicRoughness", TextureSlot::metallic_roughness},
+                                        {"normal", TextureSlot::normal}});
+}
+
+std::vector<int> channels_of_slot(TextureSlot slot, int channels) {
+  if (slot == TextureSlot::occlusion) return {0};
+  if (slot != TextureSlot::metallic_roughness) return {};
+  return channels < 3 ? std::vector<int>{0} : std::vector<int>{1, 2};
+}
+
+std::optional<std::uint64_t> uv_set_of(const Arguments& arguments) {
+  require_gltf(arguments, "uv-set");
+  if (!arguments.has("uv-set")) return std::nullopt;
+  return std::uint64_t(arguments.integer("uv-set", 0, 1000));
+}
+
+void add_gltf_options(boost::program_options::options_description& options) {
+  auto add = options.add_options();
+  add("slot", text("baseColor"),
+      "glTF: which textures of the materials: baseColor, occlusion (R), emissive, "
+      "metallicRoughness (G and B) or normal; other channels stay as they are");
+  add("uv-set", text(),
+      "glTF: N of TEXCOORD_N for all faces, such as 1 for a light map given by -t (default: what "
+      "each texture is for)");
 }
 
 void add_weld_option(boost::program_options::options_description& options) {

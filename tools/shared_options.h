@@ -2,11 +2,14 @@
 #pragma once
 
 #include <boost/program_options/options_description.hpp>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "arguments.h"
 #include "onmesh/distance/backend.h"
 #include "onmesh/image/lookup.h"
+#include "onmesh/mesh_io/reading.h"
 
 namespace onmesh::tools {
 
@@ -20,6 +23,19 @@ std::optional<Length> weld_of(const Arguments& arguments);
 /// The value of --distance.
 DistanceMethod distance_of(const Arguments& arguments);
 
+/// The value of --slot.
+/// \throw UsageError if it was given for a mesh that is no glTF
+TextureSlot slot_of(const Arguments& arguments);
+/// The channels that a slot's textures have for it: occlusion R, metallicRoughness G and B (grey if
+/// there is no more). Empty = all.
+/// \param channels that the texture has
+std::vector<int> channels_of_slot(TextureSlot slot, int channels);
+/// The number that --uv-set gives, nothing for its default.
+/// \throw UsageError if it was given for a mesh that is no glTF
+std::optional<std::uint64_t> uv_set_of(const Arguments& arguments);
+
+/// Adds --slot and --uv-set.
+void add_gltf_options(boost::program_options::options_description& options);
 /// Adds --weld.
 void add_weld_option(boost::program_options::options_description& options);
 
