@@ -8,7 +8,7 @@
 
 #include "onmesh/base/error.h"
 #include "onmesh/base/text_scan.h"
-#include "onmesh/mesh_io/find_texture.h"
+#include "onmesh/mesh_io/named_files.h"
 #include "onmesh/mesh_io/ply_header.h"
 #include "onmesh/mesh_io/ply_values.h"
 #include "onmesh/mesh_io/polygon_mesh.h"
@@ -236,7 +236,7 @@ class PlyReader {
 }  // namespace
 
 TriangleMesh read_ply(const std::filesystem::path& path, const std::string& content,
-                      const ReadOptions& /*options*/, ReadReport& report) {
+                      const ReadOptions& options, ReadReport& report) {
   const std::string file = path.string();
   const PlyHeader header = read_ply_header(content, file);
   PolygonMesh polygons;
@@ -245,8 +245,9 @@ TriangleMesh read_ply(const std::filesystem::path& path, const std::string& cont
   } else {
     polygons = PlyReader(PlyBinaryValues(content, header, file), header, file, report).run();
   }
+  NamedFiles named(path, options, report);
   for (const std::string& texture : header.textures) {
-    polygons.mesh.materials.push_back({texture, find_texture(texture, path.parent_path())});
+    polygons.mesh.materials.push_back({texture, named.path_of(texture, path)});
   }
   return triangulate(std::move(polygons), file);
 }
