@@ -2,16 +2,22 @@
 #pragma once
 
 #include <boost/program_options/options_description.hpp>
+#include <filesystem>
 #include <optional>
 
 #include "arguments.h"
 #include "onmesh/distance/backend.h"
 #include "onmesh/image/lookup.h"
+#include "onmesh/mesh_io/reading.h"
 
 namespace onmesh::tools {
 
-/// The value of --wrap.
+/// The value of --wrap, repeat if it was not given: for faces whose material does not say.
 Wrap wrap_of(const Arguments& arguments);
+/// What --confine says.
+ReadOptions read_options_of(const Arguments& arguments);
+/// The folder of the mesh if --confine was given: what its materials name may not lie elsewhere.
+std::optional<std::filesystem::path> confining_folder(const Arguments& arguments);
 /// The length that --bridge gives, nothing for none (0, the default).
 std::optional<Length> bridge_of(const Arguments& arguments);
 /// The length that --weld gives, nothing for its default.
@@ -22,5 +28,9 @@ DistanceMethod distance_of(const Arguments& arguments);
 
 /// Adds --weld.
 void add_weld_option(boost::program_options::options_description& options);
+/// Adds --wrap.
+void add_wrap_option(boost::program_options::options_description& options);
+/// Adds --confine.
+void add_confine_option(boost::program_options::options_description& options);
 
 }  // namespace onmesh::tools

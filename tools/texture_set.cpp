@@ -6,6 +6,7 @@
 #include <set>
 
 #include "onmesh/base/text.h"
+#include "onmesh/mesh_io/named_files.h"
 #include "tile_names.h"
 
 namespace onmesh::tools {
@@ -324,6 +325,16 @@ void choose_tiles(const std::vector<int>& only, TextureSet& set) {
   }
 }
 
+/// Tiles are found here, so that a reader could not see whether links of theirs lead out.
+void require_confined(const TextureRequest& request, const TextureSet& set) {
+  if (!request.confined_to) return;
+  for (const SetTexture& texture : set.textures) {
+    if (lies_outside(texture.path, *request.confined_to))
+      throw InputError(texture.path.string() +
+                       ": lies outside the mesh's folder, which --confine refuses");
+  }
+}
+
 }  // namespace
 
 TextureSet choose_textures(const TriangleMesh& mesh, const TextureRequest& request) {
@@ -339,6 +350,7 @@ TextureSet choose_textures(const TriangleMesh& mesh, const TextureRequest& reque
                    : by_material               ? of_pattern(mesh, used, request)
                    : request.files.size() == 1 ? of_one_file(mesh, used, textured, request)
                                                : of_files(mesh, used, textured, request);
+  require_confined(request, set);
   choose_tiles(request.only, set);
   return set;
 }

@@ -36,6 +36,8 @@ struct TextureRequest {
   std::vector<std::string> files;       ///< -t; empty = those that the mesh's materials name
   std::optional<std::string> material;  ///< --material
   std::vector<int> only;                ///< --only: UDIM tiles to write; empty = all
+  /// Files that lie outside this folder are refused; none = they may lie anywhere.
+  std::optional<std::filesystem::path> confined_to = std::nullopt;
 };
 
 /// Find textures and faces.
@@ -46,6 +48,7 @@ struct TextureRequest {
 /// "all" for all faces. Several files are each for the faces whose material names them. `<UDIM>`,
 /// `<UVTILE>` and `{material}` in a name stand for what is there; x.1001.png with UVs beyond the
 /// tile is taken for one of several UDIM tiles.
+/// \throw InputError for a file outside the folder that the request is confined to
 /// \throw UsageError that says what to give; FileError for a pattern that no file matches, or a
 ///   missing file, naming the material
 TextureSet choose_textures(const TriangleMesh& mesh, const TextureRequest& request);

@@ -5,10 +5,10 @@
 #include <optional>
 #include <set>
 
+#include "inputs.h"
 #include "interruption.h"
 #include "messages.h"
 #include "onmesh/image/image_io.h"
-#include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/render/render.h"
 #include "onmesh/render/texture_view.h"
 #include "output_names.h"
@@ -50,7 +50,8 @@ Command view_command() {
       "PLY with a scalar per vertex of the mesh, as onmesh distance writes it");
   add("property", text("distance"), "which property of that PLY");
   add("isolines", text(), "step of the isolines (default: a twentieth of the range; 0 = none)");
-  add("wrap", text("repeat"), "what UVs outside [0,1] mean: repeat or clamp");
+  add_wrap_option(command.options);
+  add_confine_option(command.options);
   add("size", text("800"), "pixels per side of each picture (flat: the longer side), 1 to 16384");
   add("height", text(), "pixels, if pictures of the model are not to be square");
   add("azimuth", text("35"), "degrees around the up axis");
@@ -95,8 +96,9 @@ RenderOptions render_options(const Arguments& arguments) {
 void check_combination(const Arguments& arguments) {
   arguments.refuse_together("distance-ply", {"texture", "after", "face-materials", "wrap"});
   arguments.refuse_together("face-materials", {"texture", "after", "wrap"});
-  arguments.refuse_together("flat", {"distance-ply", "face-materials", "wrap", "height", "azimuth",
-                                     "elevation", "zoom", "up", "no-light", "wireframe"});
+  arguments.refuse_together(
+      "flat", {"distance-ply", "face-materials", "wrap", "confine", "height", "azimuth",
+               "elevation", "zoom", "up", "no-light", "wireframe"});
   if (arguments.flag("flat") && arguments.has("mesh"))
     throw UsageError("--flat shows textures without a mesh; leave out '" + arguments.text("mesh") +
                      "' or --flat");
@@ -145,7 +147,7 @@ void WornTextures::add(const TextureSet& set) {
 TriangleMesh WornTextures::local(const TriangleMesh& mesh) const {
   std::vector<TextureTile> tiles;
   for (const SetTexture& texture : set_.textures)
-    tiles.push_back({nullptr, Wrap::repeat, texture.column(), texture.row(), {}});
+    tiles.push_back({nullptr, {}, texture.column(), texture.row(), {}});
   TriangleMesh result = mesh;
   if (!tiles.empty()) make_uvs_local(tiles, set_.tile_of_face, result);
   return result;
@@ -176,7 +178,8 @@ RenderColour WornTextures::colours(const std::vector<std::unique_ptr<Image>>& im
 }
 
 /// What -t says, or what the mesh's materials name.
-WornTextures worn_textures(const TriangleMesh& mesh, const std::vector<std::string>& files) {
+WornTextures worn_textures(const TriangleMesh& mesh, const std::vector<std::string>& files,
+                           const std::optional<std::filesystem::path>& confined_to) {
   WornTextures worn(mesh);
   if (!files.empty()) {
     const TextureSet set = choose_textures(mesh, {files, {}, {}});
@@ -188,7 +191,7 @@ WornTextures worn_textures(const TriangleMesh& mesh, const std::vector<std::stri
   for (const Material& material : mesh.materials) {
     if (material.texture.empty() || !done.insert(material.texture).second) continue;
     try {
-      const TextureSet set = choose_textures(mesh, {{material.texture}, {}, {}});
+      const TextureSet set = choose_textures(mesh, {{material.texture}, {}, {}, confined_to});
       warn(set.warnings);
       worn.add(set);
     } catch (const FileError& error) {
@@ -247,7 +250,8 @@ std::vector<Image> textured_pictures(const TriangleMesh& mesh, const Arguments& 
   std::optional<TriangleMesh> local;
   const auto wear = [&] {
     if (worn) return;
-    worn = worn_textures(mesh, is_one ? std::vector<std::string>{} : files);
+    worn = worn_textures(mesh, is_one ? std::vector<std::string>{} : files,
+                         confining_folder(arguments));
     local = worn->local(mesh);
   };
   if (is_one) {
@@ -275,7 +279,7 @@ std::vector<Image> textured_pictures(const TriangleMesh& mesh, const Arguments& 
 std::vector<Image> model_pictures(const std::string& path, const Arguments& arguments,
                                   const RenderOptions& options) {
   ReadReport read;
-  TriangleMesh mesh = read_mesh(path, &read);
+  TriangleMesh mesh = read_mesh_file(path, arguments, read);
   warn(read.warnings);
   check_interrupted();
   std::vector<double> scalar;
