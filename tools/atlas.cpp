@@ -32,6 +32,7 @@ Atlas atlas_of_size(const Arguments& arguments, const TriangleMesh& mesh) {
   atlas.tiles[0].wrap = wrap_of(arguments);
   atlas.set.textures.emplace_back();
   atlas.set.tile_of_face = faces_of_material(mesh, arguments.optional_text("material"));
+  make_uvs_local({{nullptr, atlas.tiles[0].wrap, 0, 0, {}}}, atlas.set.tile_of_face, atlas.mesh);
   return atlas;
 }
 
@@ -45,7 +46,8 @@ void add_atlas_options(boost::program_options::options_description& options) {
       "name)");
   add("resolution", text(), "size of the atlas instead of a texture, such as 1024x1024");
   add("material", text(), "only the faces of this material; all = every face with UVs");
-  add("wrap", text("repeat"), "what UVs outside [0,1] mean: repeat or clamp");
+  add_wrap_option(options);
+  add_gltf_options(options);
 }
 
 bool has_atlas_option(const Arguments& arguments) {
@@ -79,7 +81,11 @@ Atlas read_atlas(const Arguments& arguments, const TriangleMesh& mesh, const std
   }
   TextureRequest request;
   request.material = arguments.optional_text("material");
-  if (arguments.has(texture)) request.files = arguments.texts(texture);
+  if (arguments.has(texture)) {
+    request.files = arguments.texts(texture);
+  } else {
+    request.confined_to = confining_folder(arguments);
+  }
   TextureSet set;
   try {
     set = choose_textures(mesh, request);

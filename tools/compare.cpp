@@ -43,9 +43,11 @@ Command compare_command() {
   add("b", text());
   add("mesh", text(), "the mesh that wears the textures; of sets, all that its materials name");
   add("material", text(), "only the faces of this material; all = every face with UVs");
-  add("wrap", text("repeat"), "what UVs outside [0,1] mean: repeat or clamp");
+  add_wrap_option(command.options);
   add("fail", text(), "exit with 1 if the PSNR is below this many dB");
   add_weld_option(command.options);
+  add_gltf_options(command.options);
+  add_confine_option(command.options);
   add("seams", flag(), "insist on the seam errors: an error without --mesh");
   add("json", flag(), "the result as JSON on stdout");
   command.positional.add("a", 1).add("b", 1);
@@ -207,7 +209,7 @@ Comparison compare(const Arguments& arguments) {
   result.pairs = pairs_of(arguments.argument("a"), arguments.argument("b"));
   if (arguments.has("mesh")) {
     const auto material = arguments.optional_text("material");
-    const InputMesh input = read_input_mesh(arguments.text("mesh"), weld_of(arguments));
+    const InputMesh input = read_input_mesh(arguments.text("mesh"), arguments);
     warn(input.read.warnings);
     check_interrupted();
     if (result.pairs.size() == 1) {
@@ -305,7 +307,8 @@ int run_compare(const Arguments& arguments) {
   const std::string path_a = arguments.argument("a"), path_b = arguments.argument("b");
   std::optional<double> least;
   if (arguments.has("fail")) least = arguments.number("fail", -1000, 1000);
-  arguments.require_with({"wrap", "seams", "material", "weld"}, "mesh");
+  arguments.require_with({"wrap", "seams", "material", "weld", "confine", "slot", "uv-set"},
+                         "mesh");
   wrap_of(arguments);
 
   const Comparison result = compare(arguments);

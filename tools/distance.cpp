@@ -60,6 +60,8 @@ Command distance_command() {
   add("bridge", text("0"),
       "length: lead on to other parts across smaller gaps than this (default: none)");
   add_weld_option(command.options);
+  add_gltf_options(command.options);
+  add_confine_option(command.options);
   add("output,o", text(), "PLY to write: the welded mesh with a distance per vertex");
   add("nodes-ply", text(), "PLY to write: the nodes with a distance each");
   // As with the other commands, -t is the texture that is there; --texture is the result.
@@ -71,7 +73,7 @@ Command distance_command() {
       "name)");
   add("resolution", text(), "size of the atlas instead, such as 1024x1024");
   add("material", text(), "only texels of this material's faces; all = every face with UVs");
-  add("wrap", text("repeat"), "what UVs outside [0,1] mean: repeat or clamp");
+  add_wrap_option(command.options);
   add("json", flag(), "statistics as JSON on stdout");
   add("quiet", flag(), "no summary");
   command.positional.add("mesh", 1);
@@ -250,7 +252,7 @@ void print_errors(const DistanceRequest& request, const DistanceLengths& lengths
 int run_distance(const Arguments& arguments) {
   const std::string path = arguments.argument("mesh");
   const DistanceRequest request = read_distance_request(arguments);
-  const InputMesh input = read_input_mesh(path, weld_of(arguments));
+  const InputMesh input = read_input_mesh(path, arguments);
   warn(input.read.warnings);
   const TriangleMesh& mesh = input.cleaned;
   if ((request.exact() || request.compare) && !input.cleaning.manifold())

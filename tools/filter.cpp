@@ -10,8 +10,8 @@
 
 #include "atlas.h"
 #include "filter_report.h"
-#include "gltf_results.h"
 #include "flags.h"
+#include "gltf_results.h"
 #include "inputs.h"
 #include "interruption.h"
 #include "messages.h"
@@ -19,7 +19,6 @@
 #include "onmesh/base/process_memory.h"
 #include "onmesh/image/channels.h"
 #include "onmesh/image/image_io.h"
-#include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/mesh_io/write_gltf.h"
 #include "output_names.h"
 #include "report.h"
@@ -76,6 +75,8 @@ Command filter_command() {
       "length: lead on across smaller gaps than this, between parts of the mesh and within them "
       "(default: none; parts do not influence each other)");
   add_weld_option(command.options);
+  add_gltf_options(command.options);
+  add_confine_option(command.options);
   add("method", text("auto"),
       "how the sums are done: direct (pair by pair), nodes (at a cost per texel that does not "
       "depend on sigma), or auto: nodes where that is faster and within the tolerance");
@@ -90,7 +91,7 @@ Command filter_command() {
       "poisson: length between samples (default: by the size of the texels, so that each is hit)");
   add("r-coef", text(), "poisson: the same as a multiple of the mesh's mean edge length");
   add("seed", text("1"), "poisson: of the random points");
-  add("wrap", text("repeat"), "UVs outside [0,1]: repeat or clamp");
+  add_wrap_option(command.options);
   add("overlap", text("average"), "texels used by several faces: average, first or error");
   add("gutter", text("2"), "rings of texels to fill around charts");
   add("threads", text("0"), "0 = all processors");
@@ -243,9 +244,18 @@ FilterInputs read_inputs(const Arguments& arguments, Stopwatch& watch) {
   inputs.mesh_path = arguments.argument("mesh");
   inputs.wrap = wrap_of(arguments);
   TextureRequest request{{}, arguments.optional_text("material"), tiles_of(arguments)};
-  if (arguments.has("texture")) request.files = arguments.texts("texture");
+  if (arguments.has("texture")) {
+    request.files = arguments.texts("texture");
+  } else {
+    request.confined_to = confining_folder(arguments);
+  }
+  const TextureSlot slot = slot_of(arguments);
+  if (slot == TextureSlot::normal) {
+    throw UsageError(
+        "--slot: normal maps are not filtered yet: the mean of their codes is no normal");
+  }
   ReadReport read;
-  inputs.mesh = read_mesh(inputs.mesh_path, &read);
+  inputs.mesh = read_mesh_file(inputs.mesh_path, arguments, read);
   inputs.warnings = read.warnings;
   inputs.stages.push_back(stage("read mesh", watch));
   check_interrupted();
@@ -258,7 +268,7 @@ FilterInputs read_inputs(const Arguments& arguments, Stopwatch& watch) {
     inputs.images.push_back(read_texture(texture, inputs.warnings));
     check_interrupted();
   }
-  choose_channels(slot_of(arguments), inputs);
+  choose_channels(slot, inputs);
   inputs.stages.push_back(stage("read texture", watch));
   return inputs;
 }

@@ -26,6 +26,7 @@ Command info_command() {
   command.options.add_options()("mesh", text());
   add_atlas_options(command.options);
   add_weld_option(command.options);
+  add_confine_option(command.options);
   auto add = command.options.add_options();
   add("strict", flag(), "exit with 1 if there is anything to repair");
   add("json", flag(), "the findings as JSON on stdout");
@@ -38,7 +39,7 @@ int run_info(const Arguments& arguments) {
   wrap_of(arguments);
   if (arguments.has("material") && !has_atlas_option(arguments))
     throw UsageError("--material needs -t or --resolution");
-  const InputMesh input = read_input_mesh(path, weld_of(arguments));
+  const InputMesh input = read_input_mesh(path, arguments);
   check_interrupted();
   const Findings findings = examine(input, arguments);
   if (arguments.flag("json")) {

@@ -95,13 +95,15 @@ void check_channels(const Atlas& atlas, Findings& findings) {
 /// wrong with those is a finding, not a failure.
 void examine_textures(const InputMesh& input, const Arguments& arguments, Findings& findings) {
   const bool is_given = has_atlas_option(arguments);
-  const bool any = std::any_of(input.cleaned.materials.begin(), input.cleaned.materials.end(),
-                               [](const Material& m) { return !m.texture.empty(); });
-  if (!is_given && !any) return;
   try {
+    const auto choose = [&] {
+      TextureRequest request;
+      request.confined_to = confining_folder(arguments);
+      return choose_textures(input.cleaned, request);
+    };
     const Atlas atlas = is_given ? read_atlas(arguments, input.cleaned)
-                                 : read_atlas(choose_textures(input.cleaned, {}), input.cleaned,
-                                              wrap_of(arguments));
+                                 : read_atlas(explained_by(input.read.warnings, choose),
+                                              input.cleaned, wrap_of(arguments));
     findings.missing = atlas.set.warnings;
     findings.warnings = atlas.warnings;
     check_interrupted();

@@ -68,6 +68,16 @@ void row(const std::string& name, const std::string& value) {
   std::cout << "  " << std::left << std::setw(20) << name << value << '\n';
 }
 
+/// What readers found in the files, in the words of their formats.
+void print_reading(const ReadReport& read) {
+  const auto list = [](const char* name, const std::vector<std::string>& lines) {
+    for (std::size_t i = 0; i < lines.size(); ++i) row(i == 0 ? name : "", lines[i]);
+  };
+  list("read", read.read);
+  list("ignored", read.ignored);
+  list("assumed", read.assumed);
+}
+
 void print_surface(const InputMesh& input, const MeshReport& r) {
   const std::size_t in_file = input.as_read.positions.size();
   row("vertices",
@@ -174,6 +184,9 @@ void print_json(const InputMesh& input, const Findings& findings) {
   for (const TextureFacts& t : findings.textures) json["textures"].push_back(texture_json(t));
   json["near_boundary_edges"] = findings.near.edges;
   json["seams"] = findings.seams ? to_json(*findings.seams) : nlohmann::json();
+  json["read"] = input.read.read;
+  json["ignored"] = input.read.ignored;
+  json["assumed"] = input.read.assumed;
   json["warnings"] = input.read.warnings;
   for (const std::string& warning : findings.warnings) json["warnings"].push_back(warning);
   json["advice"] = findings.advice;
@@ -185,6 +198,7 @@ void print_json(const InputMesh& input, const Findings& findings) {
 
 void print_text(const InputMesh& input, const Findings& findings) {
   std::cout << "mesh " << input.path << '\n';
+  print_reading(input.read);
   print_surface(input, findings.mesh);
   print_cleaning(input.cleaning);
   print_atlas(findings.mesh);

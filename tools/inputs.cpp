@@ -10,6 +10,7 @@
 #include "onmesh/image/image_io.h"
 #include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/nodes/expected_nodes.h"
+#include "shared_options.h"
 
 namespace onmesh::tools {
 
@@ -31,10 +32,20 @@ TriangleMesh weld_and_join(const TriangleMesh& mesh, const std::optional<Length>
   return join(onmesh::weld(mesh), weld, report);
 }
 
-InputMesh read_input_mesh(const std::string& path, const std::optional<Length>& weld) {
+TriangleMesh read_mesh_file(const std::string& path, const Arguments& arguments,
+                            ReadReport& report) {
+  TriangleMesh mesh = read_mesh(path, &report, read_options_of(arguments));
+  if (arguments.given("wrap")) {
+    for (Material& material : mesh.materials) material.wrap.reset();
+  }
+  return mesh;
+}
+
+InputMesh read_input_mesh(const std::string& path, const Arguments& arguments) {
+  const std::optional<Length> weld = weld_of(arguments);
   InputMesh mesh;
   mesh.path = path;
-  mesh.as_read = read_mesh(path, &mesh.read);
+  mesh.as_read = read_mesh_file(path, arguments, mesh.read);
   mesh.welded = onmesh::weld(mesh.as_read);
   mesh.joined = join(mesh.welded, weld, mesh.joining);
   mesh.cleaned = clean(mesh.joined, &mesh.cleaning);

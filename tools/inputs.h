@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "arguments.h"
 #include "onmesh/base/error.h"
 #include "onmesh/base/face_error.h"
 #include "onmesh/filter/length.h"
@@ -27,12 +28,16 @@ struct InputMesh {
   ReadReport read;                  ///< what the reader found
 };
 
-/// \param weld the tolerance of joining boundaries, see FilterOptions::weld
+/// The mesh as --confine lets it be read, and textured as --wrap says if that was given.
 /// \throw FileError, InputError as read_mesh()
-InputMesh read_input_mesh(const std::string& path, const std::optional<Length>& weld);
+TriangleMesh read_mesh_file(const std::string& path, const Arguments& arguments,
+                            ReadReport& report);
+
+/// The same made ready as filtering does, with --weld.
+InputMesh read_input_mesh(const std::string& path, const Arguments& arguments);
 
 /// Weld the mesh and join its boundaries.
-/// \param weld as above
+/// \param weld the tolerance of joining boundaries, see FilterOptions::weld
 TriangleMesh weld_and_join(const TriangleMesh& mesh, const std::optional<Length>& weld,
                            JoinReport& report);
 

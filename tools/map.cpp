@@ -43,6 +43,7 @@ Command map_command() {
       "the EXR to write; of several textures a folder/ or a name with <UDIM>, {stem}, ...");
   add_atlas_options(command.options);
   add_weld_option(command.options);
+  add_confine_option(command.options);
   add("json", flag(), "statistics as JSON on stdout");
   add("quiet", flag(), "no summary");
   command.positional.add("mesh", 1);
@@ -192,7 +193,7 @@ int run_map(const Arguments& arguments) {
   const std::string path = arguments.argument("mesh"), output = arguments.text("output");
   wrap_of(arguments);
 
-  InputMesh input = read_input_mesh(path, weld_of(arguments));
+  InputMesh input = read_input_mesh(path, arguments);
   warn(input.read.warnings);
   check_interrupted();
   restore_corner_order(input, input.cleaned);

@@ -39,6 +39,7 @@ Command refine_command() {
   add("growth", text("0.25"), "growth of the spacing away from them, per unit of distance");
   add("min-angle", text("25"), "smallest angle to leave, degrees, 0 to 30");
   add_weld_option(command.options);
+  add_confine_option(command.options);
   add("json", flag(), "statistics as JSON on stdout");
   add("quiet", flag(), "no summary");
   command.positional.add("mesh", 1);
@@ -125,7 +126,7 @@ int run_refine(const Arguments& arguments) {
   if (arguments.has("output")) check_writable_file(arguments.text("output"));
   RefineOptions options = refine_options(arguments);
 
-  const InputMesh input = read_input_mesh(path, weld_of(arguments));
+  const InputMesh input = read_input_mesh(path, arguments);
   const TriangleMesh& mesh = input.cleaned;
   warn(input.read.warnings);
   set_lengths(arguments, mesh.diagonal(), options);

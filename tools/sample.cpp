@@ -13,7 +13,6 @@
 #include "interruption.h"
 #include "messages.h"
 #include "onmesh/atlas/claim_lookup.h"
-#include "onmesh/mesh_io/read_mesh.h"
 #include "onmesh/mesh_io/write_ply.h"
 #include "onmesh/poisson/poisson.h"
 #include "report.h"
@@ -50,6 +49,7 @@ Command sample_command() {
   add("r-coef", text(), "the same as a multiple of the mean edge length");
   add("seed", text("1"), "another seed gives other samples");
   add_weld_option(command.options);
+  add_confine_option(command.options);
   add("json", flag(), "print the report as JSON");
   add("quiet,q", flag(), "print nothing but errors and JSON");
   command.positional.add("mesh", 1);
@@ -244,7 +244,7 @@ int run_sample(const Arguments& arguments) {
   ReadReport read;
   const std::optional<Length> weld = weld_of(arguments);
   JoinReport joining;
-  const TriangleMesh mesh = weld_and_join(read_mesh(path, &read), weld, joining);
+  const TriangleMesh mesh = weld_and_join(read_mesh_file(path, arguments, read), weld, joining);
   if (!quiet) warn(read.warnings);
   check_interrupted();
   const Plan plan = naming(path, [&] { return make_plan(arguments, mesh); });

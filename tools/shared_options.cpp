@@ -18,7 +18,17 @@ void require_gltf(const Arguments& arguments, const std::string& option) {
 }  // namespace
 
 Wrap wrap_of(const Arguments& arguments) {
-  return arguments.choice<Wrap>("wrap", {{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}});
+  if (!arguments.has("wrap")) return Wrap::repeat;
+  return arguments.choice<Wrap>(
+      "wrap", {{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}, {"mirror", Wrap::mirror}});
+}
+
+ReadOptions read_options_of(const Arguments& arguments) {
+  ReadOptions options;
+  options.confine = arguments.flag("confine");
+  if (arguments.has("slot")) options.slot = slot_of(arguments);
+  if (arguments.has("uv-set")) options.uv_set = uv_set_of(arguments);
+  return options;
 }
 
 std::optional<Length> bridge_of(const Arguments& arguments) {
@@ -74,11 +84,28 @@ void add_gltf_options(boost::program_options::options_description& options) {
       "each texture is for)");
 }
 
+std::optional<std::filesystem::path> confining_folder(const Arguments& arguments) {
+  if (!arguments.flag("confine")) return std::nullopt;
+  return std::filesystem::path(arguments.text("mesh")).parent_path();
+}
+
 void add_weld_option(boost::program_options::options_description& options) {
   options.add_options()(
       "weld", text(),
       "length in mesh units or percent: boundaries that are no farther apart are joined (default: "
       "by the precision of the file's coordinates; 0: only what is equal)");
+}
+
+void add_wrap_option(boost::program_options::options_description& options) {
+  options.add_options()("wrap", text(),
+                        "what UVs outside [0,1] mean: repeat, clamp or mirror (default: as the "
+                        "materials say, else repeat)");
+}
+
+void add_confine_option(boost::program_options::options_description& options) {
+  options.add_options()("confine", flag(),
+                        "refuse files that the mesh names outside its own folder (default: read "
+                        "them with a warning; absolute paths and URLs are never followed)");
 }
 
 }  // namespace onmesh::tools

@@ -3,6 +3,7 @@
 
 #include <boost/program_options/options_description.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -13,8 +14,12 @@
 
 namespace onmesh::tools {
 
-/// The value of --wrap.
+/// The value of --wrap, repeat if it was not given: for faces whose material does not say.
 Wrap wrap_of(const Arguments& arguments);
+/// What --confine, --slot and --uv-set say; not all commands have all of them.
+ReadOptions read_options_of(const Arguments& arguments);
+/// The folder of the mesh if --confine was given: what its materials name may not lie elsewhere.
+std::optional<std::filesystem::path> confining_folder(const Arguments& arguments);
 /// The length that --bridge gives, nothing for none (0, the default).
 std::optional<Length> bridge_of(const Arguments& arguments);
 /// The length that --weld gives, nothing for its default.
@@ -38,5 +43,9 @@ std::optional<std::uint64_t> uv_set_of(const Arguments& arguments);
 void add_gltf_options(boost::program_options::options_description& options);
 /// Adds --weld.
 void add_weld_option(boost::program_options::options_description& options);
+/// Adds --wrap.
+void add_wrap_option(boost::program_options::options_description& options);
+/// Adds --confine.
+void add_confine_option(boost::program_options::options_description& options);
 
 }  // namespace onmesh::tools

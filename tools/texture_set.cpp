@@ -8,6 +8,7 @@
 #include "messages.h"
 #include "onmesh/base/text.h"
 #include "onmesh/image/image_io.h"
+#include "onmesh/mesh_io/named_files.h"
 #include "tile_names.h"
 
 namespace onmesh::tools {
@@ -145,8 +146,8 @@ void SetBuilder::add(const Group& group) {
   const std::vector<Index> faces = faces_of(group);
   const auto is_beyond = [&](Index f) { return square_of(mesh_, f) != std::pair(0.0, 0.0); };
   const std::optional<TileName> name = tile_name(group.path);
-  const bool is_tiled =
-      name && !content_inside(mesh_, group.path) && (name->is_pattern || std::any_of(faces.begin(), faces.end(), is_beyond));
+  const bool is_tiled = name && !content_inside(mesh_, group.path) &&
+                        (name->is_pattern || std::any_of(faces.begin(), faces.end(), is_beyond));
   if (is_tiled) {
     add_tiles(group, *name, faces);
     return;
@@ -336,6 +337,16 @@ void choose_tiles(const std::vector<int>& only, TextureSet& set) {
   }
 }
 
+/// Tiles are found here, so that a reader could not see whether links of theirs lead out.
+void require_confined(const TextureRequest& request, const TextureSet& set) {
+  if (!request.confined_to) return;
+  for (const SetTexture& texture : set.textures) {
+    if (lies_outside(texture.path, *request.confined_to))
+      throw InputError(texture.path.string() +
+                       ": lies outside the mesh's folder, which --confine refuses");
+  }
+}
+
 }  // namespace
 
 TextureSet choose_textures(const TriangleMesh& mesh, const TextureRequest& request) {
@@ -351,6 +362,7 @@ TextureSet choose_textures(const TriangleMesh& mesh, const TextureRequest& reque
                    : by_material               ? of_pattern(mesh, used, request)
                    : request.files.size() == 1 ? of_one_file(mesh, used, textured, request)
                                                : of_files(mesh, used, textured, request);
+  require_confined(request, set);
   choose_tiles(request.only, set);
   return set;
 }

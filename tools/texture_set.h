@@ -16,9 +16,9 @@ namespace onmesh::tools {
 /// One file of the set.
 struct SetTexture {
   std::filesystem::path path;  ///< of one inside the mesh file a name: scene.glb/wood.png
-  std::string material;    ///< the first one that names it; empty if none does
-  int udim = 0;            ///< UDIM tile, 1001 to 9999; 0 = not a tile of several
-  bool is_written = true;  ///< else it is context: read, filtered, not written
+  std::string material;        ///< the first one that names it; empty if none does
+  int udim = 0;                ///< UDIM tile, 1001 to 9999; 0 = not a tile of several
+  bool is_written = true;      ///< else it is context: read, filtered, not written
   std::shared_ptr<const std::string> content = nullptr;  ///< if it is inside the mesh file
 
   int column() const { return udim == 0 ? 0 : (udim - 1001) % 10; }
@@ -38,6 +38,8 @@ struct TextureRequest {
   std::vector<std::string> files;       ///< -t; empty = those that the mesh's materials name
   std::optional<std::string> material;  ///< --material
   std::vector<int> only;                ///< --only: UDIM tiles to write; empty = all
+  /// Files that lie outside this folder are refused; none = they may lie anywhere.
+  std::optional<std::filesystem::path> confined_to = std::nullopt;
 };
 
 /// Find textures and faces.
@@ -48,6 +50,7 @@ struct TextureRequest {
 /// "all" for all faces. Several files are each for the faces whose material names them. `<UDIM>`,
 /// `<UVTILE>` and `{material}` in a name stand for what is there; x.1001.png with UVs beyond the
 /// tile is taken for one of several UDIM tiles.
+/// \throw InputError for a file outside the folder that the request is confined to
 /// \throw UsageError that says what to give; FileError for a pattern that no file matches, or a
 ///   missing file, naming the material
 TextureSet choose_textures(const TriangleMesh& mesh, const TextureRequest& request);

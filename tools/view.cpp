@@ -5,10 +5,11 @@
 #include <optional>
 #include <set>
 
+#include "inputs.h"
 #include "interruption.h"
 #include "messages.h"
 #include "onmesh/image/image_io.h"
-#include "onmesh/mesh_io/read_mesh.h"
+#include "onmesh/mesh_io/write_gltf.h"
 #include "onmesh/render/render.h"
 #include "onmesh/render/texture_view.h"
 #include "output_names.h"
@@ -50,7 +51,9 @@ Command view_command() {
       "PLY with a scalar per vertex of the mesh, as onmesh distance writes it");
   add("property", text("distance"), "which property of that PLY");
   add("isolines", text(), "step of the isolines (default: a twentieth of the range; 0 = none)");
-  add("wrap", text("repeat"), "what UVs outside [0,1] mean: repeat or clamp");
+  add_wrap_option(command.options);
+  add_gltf_options(command.options);
+  add_confine_option(command.options);
   add("size", text("800"), "pixels per side of each picture (flat: the longer side), 1 to 16384");
   add("height", text(), "pixels, if pictures of the model are not to be square");
   add("azimuth", text("35"), "degrees around the up axis");
@@ -95,8 +98,9 @@ RenderOptions render_options(const Arguments& arguments) {
 void check_combination(const Arguments& arguments) {
   arguments.refuse_together("distance-ply", {"texture", "after", "face-materials", "wrap"});
   arguments.refuse_together("face-materials", {"texture", "after", "wrap"});
-  arguments.refuse_together("flat", {"distance-ply", "face-materials", "wrap", "height", "azimuth",
-                                     "elevation", "zoom", "up", "no-light", "wireframe"});
+  arguments.refuse_together(
+      "flat", {"distance-ply", "face-materials", "wrap", "confine", "slot", "uv-set", "height",
+               "azimuth", "elevation", "zoom", "up", "no-light", "wireframe"});
   if (arguments.flag("flat") && arguments.has("mesh"))
     throw UsageError("--flat shows textures without a mesh; leave out '" + arguments.text("mesh") +
                      "' or --flat");
@@ -125,10 +129,10 @@ class WornTextures {
   /// Ready to be drawn: with UVs of each face's own tile.
   TriangleMesh local(const TriangleMesh& mesh) const;
   const TextureSet& set() const { return set_; }
-  /// Images of these paths, one per texture of the set. A model is worth seeing even if one of its
-  /// textures got lost: that part stays grey.
-  std::vector<std::unique_ptr<Image>> read(const std::vector<std::filesystem::path>& paths) const;
-  RenderColour colours(const std::vector<std::unique_ptr<Image>>& images) const;
+  /// The model with these textures in the place of the set's. It is worth seeing even if one of
+  /// them got lost: that part stays grey. \param local_mesh what local() gives
+  Image picture(const TriangleMesh& local_mesh, const std::vector<SetTexture>& textures,
+                const RenderOptions& options) const;
 
  private:
   TextureSet set_;
@@ -145,38 +149,37 @@ void WornTextures::add(const TextureSet& set) {
 TriangleMesh WornTextures::local(const TriangleMesh& mesh) const {
   std::vector<TextureTile> tiles;
   for (const SetTexture& texture : set_.textures)
-    tiles.push_back({nullptr, Wrap::repeat, texture.column(), texture.row(), {}});
+    tiles.push_back({nullptr, {}, texture.column(), texture.row(), {}});
   TriangleMesh result = mesh;
   if (!tiles.empty()) make_uvs_local(tiles, set_.tile_of_face, result);
   return result;
 }
 
-std::vector<std::unique_ptr<Image>> WornTextures::read(
-    const std::vector<std::filesystem::path>& paths) const {
+Image WornTextures::picture(const TriangleMesh& local_mesh, const std::vector<SetTexture>& textures,
+                            const RenderOptions& options) const {
   std::vector<std::unique_ptr<Image>> images;
-  for (const std::filesystem::path& path : paths) {
+  for (const SetTexture& texture : textures) {
     images.push_back(nullptr);
     check_interrupted();
+    std::vector<std::string> odd;
     try {
-      images.back() = std::make_unique<Image>(read_texture(path));
+      images.back() = std::make_unique<Image>(read_texture(texture, odd));
     } catch (const FileError& error) {
       warn(error.what());
     } catch (const InputError& error) {
       warn(error.what());
     }
+    warn(odd);
   }
-  return images;
-}
-
-RenderColour WornTextures::colours(const std::vector<std::unique_ptr<Image>>& images) const {
   RenderColour colour;
   for (const Index tile : set_.tile_of_face)
     colour.face_textures.push_back(tile == kNone ? nullptr : images[tile].get());
-  return colour;
+  return render(local_mesh, colour, options);
 }
 
 /// What -t says, or what the mesh's materials name.
-WornTextures worn_textures(const TriangleMesh& mesh, const std::vector<std::string>& files) {
+WornTextures worn_textures(const TriangleMesh& mesh, const std::vector<std::string>& files,
+                           const std::optional<std::filesystem::path>& confined_to) {
   WornTextures worn(mesh);
   if (!files.empty()) {
     const TextureSet set = choose_textures(mesh, {files, {}, {}});
@@ -188,7 +191,7 @@ WornTextures worn_textures(const TriangleMesh& mesh, const std::vector<std::stri
   for (const Material& material : mesh.materials) {
     if (material.texture.empty() || !done.insert(material.texture).second) continue;
     try {
-      const TextureSet set = choose_textures(mesh, {{material.texture}, {}, {}});
+      const TextureSet set = choose_textures(mesh, {{material.texture}, {}, {}, confined_to});
       warn(set.warnings);
       worn.add(set);
     } catch (const FileError& error) {
@@ -235,6 +238,16 @@ Image scalar_picture(const TriangleMesh& mesh, const std::vector<double>& scalar
   return render(mesh, colour, options);
 }
 
+/// A model that filter wrote, with its own textures.
+Image picture_of_gltf(const std::string& path, const Arguments& arguments,
+                      const RenderOptions& options) {
+  ReadReport read;
+  const TriangleMesh mesh = weld(read_mesh_file(path, arguments, read));
+  warn(read.warnings);
+  const WornTextures worn = worn_textures(mesh, {}, confining_folder(arguments));
+  return worn.picture(worn.local(mesh), worn.set().textures, options);
+}
+
 /// The model with its textures, and with each of --after.
 std::vector<Image> textured_pictures(const TriangleMesh& mesh, const Arguments& arguments,
                                      const RenderOptions& options) {
@@ -247,27 +260,33 @@ std::vector<Image> textured_pictures(const TriangleMesh& mesh, const Arguments& 
   std::optional<TriangleMesh> local;
   const auto wear = [&] {
     if (worn) return;
-    worn = worn_textures(mesh, is_one ? std::vector<std::string>{} : files);
+    worn = worn_textures(mesh, is_one ? std::vector<std::string>{} : files,
+                         confining_folder(arguments));
     local = worn->local(mesh);
   };
   if (is_one) {
     pictures.push_back(picture_with(mesh, files[0], options));
   } else {
     wear();
-    std::vector<std::filesystem::path> paths;
-    for (const SetTexture& texture : worn->set().textures) paths.push_back(texture.path);
-    const auto images = worn->read(paths);
-    pictures.push_back(render(*local, worn->colours(images), options));
+    pictures.push_back(worn->picture(*local, worn->set().textures, options));
   }
   for (const std::string& after : afters) {
     check_interrupted();
+    if (is_gltf_name(after)) {
+      pictures.push_back(picture_of_gltf(after, arguments, options));
+      continue;
+    }
     if (!names_several(after)) {
       pictures.push_back(picture_with(mesh, after, options));
       continue;
     }
     wear();
-    const auto images = worn->read(name_outputs(worn->set(), after).paths);
-    pictures.push_back(render(*local, worn->colours(images), options));
+    std::vector<SetTexture> textures;
+    for (const auto& written : name_outputs(worn->set(), after).paths) {
+      textures.emplace_back();
+      textures.back().path = written;
+    }
+    pictures.push_back(worn->picture(*local, textures, options));
   }
   return pictures;
 }
@@ -275,7 +294,7 @@ std::vector<Image> textured_pictures(const TriangleMesh& mesh, const Arguments& 
 std::vector<Image> model_pictures(const std::string& path, const Arguments& arguments,
                                   const RenderOptions& options) {
   ReadReport read;
-  TriangleMesh mesh = read_mesh(path, &read);
+  TriangleMesh mesh = read_mesh_file(path, arguments, read);
   warn(read.warnings);
   check_interrupted();
   std::vector<double> scalar;

@@ -27,7 +27,7 @@ bool near_chart(const TexelMap& map, int x, int y, int rings) {
 TEST_CASE("the gutter is what the rings around charts add to them", "[gutter_texels]") {
   TriangleMesh mesh = halves(4);
   for (Vec2& uv : mesh.uvs) uv.x() -= 0.05;  // over the image's border
-  for (const Wrap wrap : {Wrap::repeat, Wrap::clamp})
+  for (const Wrap wrap : {Wrap::repeat, Wrap::clamp, Wrap::mirror})
     for (const int rings : {0, 1, 2, 5}) {
       const TexelMap map = make_texel_map(mesh, 61, 53, {wrap, {}});
       std::vector<Index> expected;

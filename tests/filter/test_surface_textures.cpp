@@ -248,5 +248,74 @@ TEST_CASE("tiles are named where something is odd about them", "[tiles]") {
   CHECK(crossing[0].find("1 face reaches beyond the border") == 0);
 }
 
+/// Two squares apart, each over one half of the image's rows and two periods of its columns.
+TriangleMesh two_wide_squares() {
+  TriangleMesh mesh;
+  for (const double low : {0.0, 0.5}) {
+    const auto v = Index(mesh.positions.size());
+    mesh.positions.insert(
+        mesh.positions.end(),
+        {{-1, 4 * low, 0}, {1, 4 * low, 0}, {1, 4 * low + 0.5, 0}, {-1, 4 * low + 0.5, 0}});
+    mesh.uvs.insert(mesh.uvs.end(), {{-1, low}, {1, low}, {1, low + 0.5}, {-1, low + 0.5}});
+    mesh.faces.insert(mesh.faces.end(), {{v, v + 1, v + 2}, {v, v + 2, v + 3}});
+  }
+  mesh.face_uvs = mesh.faces;
+  mesh.face_materials = {0, 0, 1, 1};
+  mesh.materials.resize(2);
+  return mesh;
+}
+
+TEST_CASE("two materials see one image in modes of their own", "[surface_textures]") {
+  const Image image = make_texture(24, 24, Pattern::noise, 0.3, 4, 1);
+  FilterOptions options;
+  options.kind = FilterKind::gaussian;
+  options.sigma_spatial = parse_length("sigma", "2tx");
+  options.method = FilterMethod::direct;
+  TriangleMesh mesh = two_wide_squares();
+  const auto alike = [&](Wrap wrap) {
+    options.wrap = wrap;
+    return filter(two_wide_squares(), image, options);
+  };
+  const Image clamped = alike(Wrap::clamp), mirrored = alike(Wrap::mirror);
+  options.wrap = Wrap::repeat;
+  mesh.materials[0].wrap = Wrap::clamp;
+  mesh.materials[1].wrap = Wrap::mirror;
+  const Image both = filter(mesh, image, options);
+  double most = 0, differ = 0;
+  for (Index t = 0; t < 24 * 24; ++t) {
+    const Image& expected = t < 12 * 24 ? mirrored : clamped;  // rows run down
+    most = std::max(most, double(std::abs(both.texel(t)[0] - expected.texel(t)[0])));
+    differ = std::max(differ, double(std::abs(mirrored.texel(t)[0] - clamped.texel(t)[0])));
+  }
+  CHECK(most < 1e-6);
+  CHECK(differ > 0.01);
+}
+
+TEST_CASE("faces of different wrap modes have no UV in common", "[surface_textures]") {
+  TriangleMesh mesh = plane_in_two_tiles();
+  mesh.materials.resize(3);
+  mesh.materials[1].wrap = Wrap::clamp;
+  mesh.materials[2].wrap = Wrap::repeat;  // as the tile
+  for (Index f = 0; f < mesh.faces.size(); ++f) mesh.face_materials[f] = f % 3;
+  const TriangleMesh before = mesh;
+  const Image image = make_image(4, 4, 1);
+  make_uvs_local({{&image, Wrap::repeat, 0, 0, {}}}, std::vector<Index>(mesh.faces.size(), 0),
+                 mesh);
+  std::vector<int> modes(mesh.uvs.size(), -1);
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      int& mode = modes[mesh.face_uvs[f][k]];
+      if (mode < 0) mode = f % 3 == 1;
+      REQUIRE(mode == int(f % 3 == 1));
+      REQUIRE(mesh.uvs[mesh.face_uvs[f][k]] == before.uvs[before.face_uvs[f][k]]);
+    }
+  }
+  mesh = before;
+  mesh.materials[1].wrap = Wrap::repeat;
+  make_uvs_local({{&image, Wrap::repeat, 0, 0, {}}}, std::vector<Index>(mesh.faces.size(), 0),
+                 mesh);
+  CHECK(mesh.face_uvs == before.face_uvs);
+}
+
 }  // namespace
 }  // namespace onmesh

@@ -123,6 +123,7 @@ FilterOptions make_options(Input& input, std::size_t faces) {
   if (bit(choices, 0)) options.kind = FilterKind::gaussian;
   if (bit(choices, 1)) options.samples = SampleKind::poisson;
   if (bit(choices, 2)) options.wrap = Wrap::clamp;
+  if (bit(choices, 7)) options.wrap = Wrap::mirror;
   if (bit(choices, 3)) options.radius = length(input, 0.25);
   if (bit(choices, 4)) options.bridge = length(input, 1e-3);
   if (bit(choices, 6)) options.weld = length(input, 1e-3);

@@ -25,6 +25,14 @@ inline void require_sound(const TriangleMesh& mesh) {
     require(material == kNone || material < mesh.materials.size(),
             "a material index is out of range");
   }
+  require(mesh.face_normals.empty() || mesh.face_normals.size() == faces,
+          "a mesh has not one entry per face for normals");
+  for (const auto& corners : mesh.face_normals) {
+    for (const Index i : corners) {
+      require(i == kNone || i < mesh.normals.size(), "a normal index is out of range");
+    }
+  }
+  for (const Vec3& n : mesh.normals) require(n.allFinite(), "a normal is not finite");
   for (const Vec3& p : mesh.positions) require(p.allFinite(), "a coordinate is not finite");
   for (const Vec2& uv : mesh.uvs) require(uv.allFinite(), "a UV is not finite");
 }

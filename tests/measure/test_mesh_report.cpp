@@ -242,3 +242,18 @@ TEST_CASE("the report and the texel map agree on charts of odd faces, too", "[me
   check_charts(mesh);
   CHECK(report_mesh(mesh).charts == 2);
 }
+
+TEST_CASE("UVs beyond [0,1] are no news where materials say what is there", "[mesh_report]") {
+  TriangleMesh mesh = textured_square(2, {3, 3}, {0, 0});
+  mesh.materials = {{"a", "a.png", Wrap::mirror}, {"b", "a.png"}};
+  mesh.face_materials.assign(mesh.faces.size(), 0);
+  const auto text = [&] {
+    std::string lines;
+    for (const std::string& line : advice(report_mesh(mesh))) lines += line + '\n';
+    return lines;
+  };
+  CHECK_THAT(text(), Contains("the materials' wrap modes say what is there"));
+  mesh.face_materials[0] = 1;
+  CHECK_THAT(text(), Contains("they repeat the texture"));
+  CHECK(report_mesh(mesh).charts == 2);
+}

@@ -70,9 +70,27 @@ TEST_CASE("winding follows the larger area of each component, UVs move along", "
   two.face_uvs.assign(8, {kNone, kNone, kNone});
   two.face_materials.assign(8, kNone);
   std::swap(two.faces[2][0], two.faces[2][1]);
+  two.normals = two.positions;  // every corner's tells which vertex it was
+  two.face_normals = two.faces;
   CleanReport report;
-  clean(two, &report);
+  const TriangleMesh cleaned = clean(two, &report);
   CHECK(report.flipped == 1);
+  REQUIRE(cleaned.face_normals.size() == 8);
+  for (Index f = 0; f < 8; ++f) {
+    for (std::size_t k = 0; k < 3; ++k)
+      CHECK(cleaned.normals[cleaned.face_normals[f][k]] == cleaned.corners(f)[k]);
+  }
+}
+
+TEST_CASE("faces that read one texture differently are different layers", "[clean]") {
+  TriangleMesh mesh = bare_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 2}});
+  mesh.uvs = {{0, 0}, {2, 0}, {0, 2}};
+  mesh.face_uvs = mesh.faces;
+  mesh.materials = {{"a", "t.png"}, {"b", "t.png"}};
+  mesh.face_materials = {0, 1};
+  CHECK(clean(mesh).faces.size() == 1);
+  mesh.materials[1].wrap = Wrap::clamp;
+  CHECK(clean(mesh).faces.size() == 2);
 }
 
 TEST_CASE("a one-sided component is left as it is, the others are wound", "[clean]") {

@@ -45,6 +45,35 @@ TEST_CASE("welding joins what is equal bit by bit, and only that", "[triangle_me
   CHECK(again.face_uvs == welded.face_uvs);
 }
 
+TEST_CASE("normals stay with their corners", "[triangle_mesh]") {
+  TriangleMesh mesh =
+      bare_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {3, 2, 1}, {1, 2, 3}});
+  mesh.normals = {{9, 9, 9}, {0, 0, 1}, {0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
+  mesh.face_normals = {{1, 2, kNone}, {3, 3, 4}, {4, 4, 4}};
+  const auto normals_of = [](const TriangleMesh& m) {
+    std::vector<std::array<double, 3>> sums;  // a normal per corner told by a number
+    for (const auto& face : m.face_normals) {
+      sums.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        sums.back()[k] = face[k] == kNone ? -1 : m.normals[face[k]].dot(Vec3(1, 10, 100));
+      }
+    }
+    return sums;
+  };
+  const auto before = normals_of(mesh);
+  const TriangleMesh welded = weld(mesh);
+  CHECK(normals_of(welded) == before);
+  CHECK(welded.normals.size() == 4);  // without the one that no face has
+  CHECK(normals_of(loosen(mesh)) == before);
+  CHECK(loosen(mesh).normals.size() == 8);
+  mesh.materials = {{"a", {}}, {"b", {}}};
+  mesh.face_materials = {0, 1, 0};
+  CHECK(normals_of(separate_materials(mesh)) == before);
+  const TriangleMesh part = extract_faces(mesh, {false, true, false});
+  CHECK(normals_of(part) == decltype(before){before[1]});
+  CHECK(part.normals.size() == 2);
+}
+
 TEST_CASE("a mesh of loose triangles welds to the mesh it was cut from", "[triangle_mesh]") {
   constexpr Index n = 30;
   TriangleMesh loose = bare_mesh({}, {});

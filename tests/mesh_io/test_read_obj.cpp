@@ -133,6 +133,11 @@ TEST_CASE("a bad OBJ is refused with file and line", "[read_obj]") {
   CHECK_THAT(fails("f 1 2 x"), StartsWith("m.obj:9: face corner is not a number: 'x'"));
   CHECK_THAT(fails("f 1 2 3.5"), StartsWith("m.obj:9: face corner is not a number"));
   CHECK_THAT(fails("f 1 2 /3"), StartsWith("m.obj:9: face corner without a vertex"));
+  CHECK(fails("f 1//5 2 3") == "m.obj:9: normal index 5 is out of range (0 in all)");
+  CHECK(fails("f 1//0 2 3") == "m.obj:9: normal index 0 (indices start at 1)");
+  CHECK(fails("f 1/1/-1 2 3") == "m.obj:9: normal index -1 is out of range (0 so far)");
+  CHECK_THAT(fails("f 1//x 2 3"), StartsWith("m.obj:9: face corner is not a number"));
+  CHECK_THAT(fails("vn 0 0"), StartsWith("m.obj:9: normal is missing"));
   CHECK_THAT(fails("v 1 2"), StartsWith("m.obj:9: coordinate is missing"));
   CHECK_THAT(fails("v 1 2 1,5"), StartsWith("m.obj:9: coordinate is not a number: '1,5'"));
   CHECK_THAT(fails("v 1 2 3 red"),
@@ -148,6 +153,42 @@ TEST_CASE("a bad OBJ is refused with file and line", "[read_obj]") {
   const std::string message = fails("v 1 2 " + std::string(1000, '\x01'));
   CHECK(message.size() < 120);
   CHECK(message.find('\x01') == std::string::npos);
+}
+
+TEST_CASE("normals of an OBJ stay with their corners", "[read_obj]") {
+  const std::string normals = "vn 0 0 2\nvn 0 1 0\nvn 1 0 0\n";
+  const TriangleMesh mesh =
+      parse(kSquare + normals + "f 1 2 3\nf 1//3 2/1/-1 3/2 4/3/1\nf 2//2 3//2 4//2\n");
+  CHECK(mesh.normals == std::vector<Vec3>{{0, 0, 2}, {0, 1, 0}, {1, 0, 0}});
+  CHECK(mesh.face_normals ==
+        std::vector<Face>{{kNone, kNone, kNone}, {2, 2, kNone}, {2, kNone, 0}, {1, 1, 1}});
+  CHECK(parse(kSquare + "f 1// 2// 3//\n").face_normals.empty());
+  CHECK(parse(kSquare + "f 1//1 2//1 3//1\nvn 0 0 1\n").face_normals ==
+        std::vector<Face>{{0, 0, 0}});
+}
+
+TEST_CASE("a normal that is not finite costs only its own corners", "[read_obj]") {
+  ReadReport report;
+  const TriangleMesh mesh = parse(kSquare + "vn 0 0 1\nvn nan 0 1\nf 1//1 2//2 3//1\n", &report);
+  CHECK(mesh.face_normals == std::vector<Face>{{0, kNone, 0}});
+  CHECK(mesh.normals[1].allFinite());
+  REQUIRE(report.warnings.size() == 1);
+  CHECK_THAT(report.warnings[0], StartsWith("m.obj: 1 normals are not finite"));
+}
+
+TEST_CASE("what an OBJ holds is counted, and what has no meaning here", "[read_obj]") {
+  using Lines = std::vector<std::string>;
+  ReadReport report;
+  parse("# c\no a\n" + kSquare +
+            "v 5 5 5 1\nv 5 5 6 .1 .2 .3\nvn 0 0 1\ng a\ng b\nusemtl\nf 1/1 2/2 3/3\n"
+            "l 1 2\nl 2 3\nl 3 4\np 1\ns off\n\nodd 1\n",
+        &report);
+  CHECK(report.read == Lines{"6 v", "4 vt", "1 vn", "1 f", "1 usemtl"});
+  CHECK(report.ignored == Lines{"1 v with colours", "1 v with weights", "1 vn that no face names",
+                                "2 g (groups)", "3 l (lines)", "1 o (objects)", "1 odd",
+                                "1 p (points)", "1 s (smoothing groups)"});
+  CHECK(report.warnings.empty());
+  CHECK(report.assumed.empty());
 }
 
 TEST_CASE("a UV that is not finite costs only its own corners", "[read_obj]") {
@@ -171,7 +212,8 @@ TEST_CASE("materials stay apart, wherever their library is named", "[read_obj]")
                    "usemtl unknown\nf 1 2 3\nusemtl red wall\t\nf 1 2 3\n");
   ReadReport report;
   const TriangleMesh mesh = read_mesh(path, &report);
-  CHECK(report.warnings.empty());
+  REQUIRE(report.warnings.size() == 1);
+  CHECK_THAT(report.warnings[0], Contains("no material file defines 'unknown'"));
   REQUIRE(mesh.materials.size() == 3);
   CHECK(mesh.materials[0].name == "red wall");
   CHECK(mesh.materials[0].texture == (folder.path() / "red.png").string());

@@ -28,6 +28,9 @@ TEST_CASE("a written OBJ reads back bit for bit", "[write_obj]") {
     mesh.face_uvs.push_back({i + 2, i % 5 == 0 ? kNone : i, i + 1});
     mesh.face_materials.push_back(i < 4 ? i : i % 7 == 0 ? kNone : i % 3);
   }
+  mesh.normals = {{0, 0, 1}, {1e-300, -0.1, 3}};
+  mesh.face_normals.assign(298, {kNone, 1, 0});
+  mesh.materials[0].wrap = Wrap::clamp;
   const auto path = folder.path() / "out.obj";
   write_obj(path, mesh);
   ReadReport report;
@@ -43,8 +46,11 @@ TEST_CASE("a written OBJ reads back bit for bit", "[write_obj]") {
   CHECK(back.faces == mesh.faces);
   CHECK(back.face_uvs == mesh.face_uvs);
   CHECK(back.face_materials == mesh.face_materials);
+  CHECK(back.normals == mesh.normals);
+  CHECK(back.face_normals == mesh.face_normals);
   REQUIRE(back.materials.size() == 4);
   CHECK(back.materials[0].texture == mesh.materials[0].texture);
+  CHECK(back.materials[0].wrap == WrapModes(Wrap::clamp));
   CHECK(back.materials[2].texture.empty());
   // Nothing but the two files is left.
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 3);

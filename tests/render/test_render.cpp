@@ -211,3 +211,24 @@ TEST_CASE("options outside their domain are refused", "[render]") {
   colour.scalar = &scalar;
   CHECK_THROWS_AS(render(mesh, colour, {}), InputError);
 }
+
+TEST_CASE("a material's wrap mode goes before the picture's", "[render]") {
+  const Image texture = make_texture(16, 16, Pattern::noise, 0, 5);
+  TriangleMesh mesh = make_plane(1, 1, 2, 2);
+  for (Vec2& uv : mesh.uvs) uv *= 2;
+  RenderColour colour;
+  colour.texture = &texture;
+  RenderOptions options;
+  options.width = options.height = 64;
+  options.light = false;
+  const auto picture = [&](std::optional<WrapModes> material, WrapModes picture) {
+    mesh.materials = {{"m", {}, material}};
+    mesh.face_materials.assign(mesh.faces.size(), 0);
+    options.wrap = picture;
+    return render(mesh, colour, options).pixels;
+  };
+  const auto mirrored = picture({}, Wrap::mirror);
+  CHECK(picture(Wrap::mirror, Wrap::repeat) == mirrored);
+  CHECK(picture({}, Wrap::repeat) != mirrored);
+  CHECK(picture(WrapModes(Wrap::mirror, Wrap::repeat), Wrap::mirror) != mirrored);
+}

@@ -58,7 +58,7 @@ TEST_CASE("wrong usage exits with 2 and names the option", "[tools]") {
   check_refused(space, "info m.obj extra", 2, "too many arguments");
   check_refused(space, "info m.obj --resolution 12", 2, "--resolution: '12'");
   check_refused(space, "info m.obj --resolution 0x4", 2, "--resolution: '0x4'");
-  check_refused(space, "info m.obj --resolution 4x4 --wrap mirror", 2, "--wrap: 'mirror'");
+  check_refused(space, "info m.obj --resolution 4x4 --wrap border", 2, "--wrap: 'border'");
   check_refused(space, "map m.obj --resolution 4x4", 2, "--output is missing");
   check_refused(space, "map m.obj --resolution 4x4 -o m.png", 2, "must end in .exr");
   check_refused(space, "map m.obj -o m.exr", 2, "give one with -t, or give --resolution");

@@ -33,5 +33,5 @@ TEST_CASE("view puts any number of textures beside each other, on the model or f
   check_refused(space, "view --flat -t m.png --wireframe -o p.png", 2, "--flat and --wireframe");
   check_refused(space, "view m.obj -t m.png --after no.png -o p.png", 4, "no.png: ");
   check_refused(space, "view m.obj --face-materials --after m.png -o p.png", 2, "exclude");
-  check_refused(space, "view m.obj --wrap mirror -o p.png", 2, "--wrap");
+  check_refused(space, "view m.obj --wrap border -o p.png", 2, "--wrap");
 }

@@ -45,7 +45,7 @@ void ChartLookup::blend(std::span<const Index> texels, std::span<const double> w
 }
 
 bool ChartLookup::bilinear(const LaidFace& laid, const Vec2& pixel, float* values) const {
-  const TexelTile& tile = map_.tile_of(laid.face);
+  const TexelTile tile = map_.tile_of(laid.face);
   const int x0 = int(std::floor(pixel.x() - 0.5)), y0 = int(std::floor(pixel.y() - 0.5));
   const double fx = pixel.x() - 0.5 - x0, fy = pixel.y() - 0.5 - y0;
   std::array<Index, 4> texels{};
@@ -69,7 +69,7 @@ bool ChartLookup::bilinear(const LaidFace& laid, const Vec2& pixel, float* value
 
 void ChartLookup::gather(const LaidFace& laid, const Vec2& from, const Vec2& pixel,
                          const PixelFrame& frame, std::vector<Support>& supports) const {
-  const TexelTile& tile = map_.tile_of(laid.face);
+  const TexelTile tile = map_.tile_of(laid.face);
   const auto [x0, x1] = centres_near(pixel.x(), kFitReach);
   const auto [y0, y1] = centres_near(pixel.y(), kFitReach);
   for (int y = y0; y < y1; ++y)

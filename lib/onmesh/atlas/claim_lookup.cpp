@@ -22,7 +22,7 @@ Index ClaimLookup::find(Index face, const Vec2& uv) const {
 }
 
 Index ClaimLookup::find(Index face, const TexelClaim& square) const {
-  const TexelTile& tile = map_.tile_of(face);
+  const TexelTile tile = map_.tile_of(face);
   if (!tile.holds(square)) return kNone;
   Index claim = heads_[tile.texel(square)];
   for (; claim != kNone; claim = next_[claim]) {

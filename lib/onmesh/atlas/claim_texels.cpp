@@ -83,7 +83,7 @@ bool Claimer::wins(Index face, int on, const Vec2& centre) const {
 template <class Emit>
 void Claimer::claim_rows(const Strip& strip, Emit&& emit) const {
   const UvTriangle t = atlas_.triangle(strip.face);
-  const TexelTile& tile = atlas_.map.tile_of(strip.face);
+  const TexelTile tile = atlas_.map.tile_of(strip.face);
   // Centres further than this from an edge's line are decided by the line alone.
   const double margin = 1000 * atlas_.tolerance;
   for (std::int32_t row = strip.begin; row < strip.end; ++row) {
@@ -106,7 +106,7 @@ void Claimer::claim_rows(const Strip& strip, Emit&& emit) const {
       cut(-margin, low, high);
       cut(margin, sure_low, sure_high);
     }
-    if (tile.wrap == Wrap::clamp) {
+    if (tile.wrap.u == Wrap::clamp) {
       low = std::max(low, 0.0);
       high = std::min(high, tile.width - 1.0);
     }
@@ -133,12 +133,12 @@ std::vector<Claimer::Part> Claimer::parts_of(const std::vector<Index>& faces) co
   std::vector<Part> parts;
   for (const Index f : faces) {
     const UvTriangle t = atlas_.triangle(f);
-    const TexelTile& tile = atlas_.map.tile_of(f);
+    const TexelTile tile = atlas_.map.tile_of(f);
     auto rows = t.rows(atlas_.tolerance);
-    clip(tile, rows, tile.height);
+    clip(tile.wrap.v, rows, tile.height);
     for (auto y = rows.first; y < rows.second; ++y) {
       auto columns = t.columns(y, atlas_.tolerance);
-      clip(tile, columns, tile.width);
+      clip(tile.wrap.u, columns, tile.width);
       for (auto x = columns.first; x < columns.second; ++x)
         parts.push_back({{std::int32_t(x), std::int32_t(y)}, t.area_in(x, y)});
     }
@@ -253,7 +253,7 @@ void Claimer::lay_out(const std::vector<std::size_t>& counts) {
 void Claimer::write_claims(const std::vector<std::size_t>& places) {
   parallel_over(strips_.size(), [&](std::size_t i) {
     TexelClaim* out = atlas_.map.claims.data() + places[i];
-    const TexelTile& tile = atlas_.map.tile_of(strips_[i].face);
+    const TexelTile tile = atlas_.map.tile_of(strips_[i].face);
     claim_rows(strips_[i], [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
       for (std::int32_t x = begin; x < end; ++x) {
         *out = {x, row};
@@ -275,7 +275,8 @@ std::vector<Strip> make_strips(const Atlas& atlas) {
   for (Index f = 0; f < atlas.mesh.faces.size(); ++f) {
     if (!atlas.rasterised(f)) continue;
     auto rows = atlas.triangle(f).rows(atlas.tolerance);
-    clip(atlas.map.tile_of(f), rows, atlas.map.tile_of(f).height);
+    const TexelTile tile = atlas.map.tile_of(f);
+    clip(tile.wrap.v, rows, tile.height);
     for (auto row = rows.first; row < rows.second; row += kStripRows)
       strips.push_back(
           {f, std::int32_t(row), std::int32_t(std::min(row + kStripRows, rows.second))});

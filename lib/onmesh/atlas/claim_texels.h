@@ -24,15 +24,16 @@ struct Atlas {
   double tolerance;  ///< pixels
 
   UvTriangle triangle(Index face) const {
-    const TexelTile& tile = map.tile_of(face);
+    const TexelTile tile = map.tile_of(face);
     return {mesh, face, tile.width, tile.height, tolerance};
   }
   bool rasterised(Index face) const { return map.texel_area[face] > 0; }
 };
 
 /// Limit rows or columns to those that are rasterised: with Wrap::clamp the tile's.
-inline void clip(const TexelTile& tile, std::pair<std::int64_t, std::int64_t>& range, int size) {
-  if (tile.wrap == Wrap::repeat) return;
+/// \param wrap the mode of their direction
+inline void clip(Wrap wrap, std::pair<std::int64_t, std::int64_t>& range, int size) {
+  if (wrap != Wrap::clamp) return;
   range.first = std::max<std::int64_t>(range.first, 0);
   range.second = std::min<std::int64_t>(range.second, size);
 }

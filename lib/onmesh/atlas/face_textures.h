@@ -14,6 +14,7 @@ struct FaceTextures {
 
 /// Number the textures that the faces' materials name. All faces without one share a number: they
 /// look up whatever texture is chosen for them.
-FaceTextures number_textures(const TriangleMesh& mesh);
+/// \param by_wrap number those apart that read one texture in different wrap modes
+FaceTextures number_textures(const TriangleMesh& mesh, bool by_wrap = false);
 
 }  // namespace onmesh

@@ -150,7 +150,7 @@ void GutterFill::limit(const Place& place, const LaidFace& across, float* values
 /// The claim nearest to the pixel among those of the first face, going outward from this one over
 /// the chart, that has any.
 void GutterFill::copy_nearest_claim(Index face, const Vec2& pixel, float* values) const {
-  const TexelTile& tile = map_.tile_of(face);  // of the whole chart
+  const TexelTile tile = map_.tile_of(face);  // of the whole chart
   const auto copy = [&](const TexelClaim& claim) {
     const float* from = values_[tile.texel(claim)];
     for (const int c : lookup_.channels()) values[c] = from[c];

@@ -30,7 +30,8 @@ namespace onmesh {
 /// Values stay within those they come from; constant textures stay constant, and a linear one on a
 /// flat surface goes on linearly. With one ring or more, bilinear look-ups on charts see no other
 /// texels than covered and filled ones. Covered texels are read and not changed, nor is any alpha
-/// channel. Rings wrap around the image with Wrap::repeat.
+/// channel. Rings go on over the image's border as the
+/// faces there read it: not with Wrap::clamp.
 /// Over a gap between boundaries that is bridged, the surface goes on as far beyond it as the gap
 /// is wide.
 /// \param rings number of rings, >= 0

@@ -20,6 +20,7 @@ struct OuterEdge {
   int edge;
   Vec2 from, to;
   Vec2 outward;  ///< unit normal
+  WrapModes wrap;
 };
 
 /// Per tile, in the order of faces.
@@ -33,8 +34,8 @@ std::vector<std::vector<OuterEdge>> outer_edges(const TriangleMesh& mesh, const 
   std::vector<std::vector<OuterEdge>> edges(map.tiles.size());
   for (Index f = 0; f < used.size(); ++f) {
     if (!used[f]) continue;
-    const TexelTile& tile = map.tile_of(f);
-    const auto number = std::size_t(&tile - map.tiles.data());
+    const TexelTile tile = map.tile_of(f);
+    const Index number = map.tile_number(f);
     for (int k = 0; k < 3; ++k) {
       bool inner = false;
       neighbours.across_edge(f, k, [&](Index) { inner = true; });
@@ -43,7 +44,7 @@ std::vector<std::vector<OuterEdge>> outer_edges(const TriangleMesh& mesh, const 
       const auto& e = t.edges[std::size_t(k)];
       edges[number].push_back({f, map.chart_of_face[f], k, t.corners[std::size_t(k)],
                                t.corners[std::size_t((k + 1) % 3)],
-                               e.sign * Vec2(e.direction.y(), -e.direction.x())});
+                               e.sign * Vec2(e.direction.y(), -e.direction.x()), tile.wrap});
     }
   }
   return edges;
@@ -92,18 +93,19 @@ class EdgeRows {
   template <class Visit>
   static void visit(const std::vector<OuterEdge>& edges, const TexelTile& tile, double reach,
                     const Visit& visit) {
-    const int height = tile.height;
+    const std::int64_t height = tile.height;
     for (Index e = 0; e < edges.size(); ++e) {
       auto first =
           std::int64_t(std::ceil(std::min(edges[e].from.y(), edges[e].to.y()) - reach - 0.5));
       auto last =
           std::int64_t(std::floor(std::max(edges[e].from.y(), edges[e].to.y()) + reach - 0.5));
-      if (tile.wrap == Wrap::clamp) {
+      const Wrap wrap = edges[e].wrap.v;
+      if (wrap == Wrap::clamp) {
         first = std::max<std::int64_t>(first, 0);
         last = std::min<std::int64_t>(last, height - 1);
       }
       for (auto row = first; row <= last; ++row)
-        visit(std::size_t(((row % height) + height) % height), EdgeInRow{e, std::int32_t(row)});
+        visit(std::size_t(wrapped_index(wrap, row, height)), EdgeInRow{e, std::int32_t(row)});
     }
   }
 
@@ -131,19 +133,27 @@ class RowSearch {
   void offer(const OuterEdge& e, std::int32_t row, double reach) {
     const std::int64_t width = tile_.width;
     auto [low, high] = columns_near(e, row + 0.5, reach);
-    if (tile_.wrap == Wrap::clamp) {
+    if (e.wrap.u == Wrap::clamp) {
       low = std::max(low, 0.0);
       high = std::min(high, double(width) - 1.0);
     }
     for (auto x = std::int64_t(low); x <= std::int64_t(high);) {
-      const std::int64_t tile = x >= 0 ? x / width : -((width - 1 - x) / width);
+      const std::int64_t tile = periods_before(x, width);
       const std::int64_t stop = std::min(std::int64_t(high), (tile + 1) * width - 1);
-      const Index last = base_ + Index(stop - tile * width);
-      auto texel =
-          std::lower_bound(gutter_.begin(), gutter_.end(), base_ + Index(x - tile * width));
-      for (; texel != gutter_.end() && *texel <= last; ++texel)
-        consider(std::size_t(texel - gutter_.begin()), e,
-                 {std::int32_t(std::int64_t(*texel - base_) + tile * width), row});
+      // Columns of the image and of the period, which are the same ones in the other order if it
+      // is turned over.
+      const bool is_turned = e.wrap.u == Wrap::mirror && tile % 2 != 0;
+      const auto turned = [&](std::int64_t column) {
+        return is_turned ? width - 1 - column : column;
+      };
+      const auto [first, last] =
+          std::minmax({turned(x - tile * width), turned(stop - tile * width)});
+      const Index beyond = base_ + Index(last) + 1;
+      auto texel = std::lower_bound(gutter_.begin(), gutter_.end(), base_ + Index(first));
+      for (; texel != gutter_.end() && *texel < beyond; ++texel) {
+        const std::int64_t column = turned(std::int64_t(*texel - base_)) + tile * width;
+        consider(std::size_t(texel - gutter_.begin()), e, {std::int32_t(column), row});
+      }
       x = stop + 1;
     }
   }
@@ -176,9 +186,9 @@ class RowSearch {
 };
 
 /// The tile that a texel is in.
-const TexelTile& tile_at(const TexelMap& map, Index texel) {
-  auto next = map.tiles.begin() + 1;
-  while (next != map.tiles.end() && next->first <= texel) ++next;
+const TexelTile& tile_at(const std::vector<TexelTile>& tiles, Index texel) {
+  auto next = tiles.begin() + 1;
+  while (next != tiles.end() && next->first <= texel) ++next;
   return *(next - 1);
 }
 
@@ -192,6 +202,21 @@ void visit_neighbours(const TexelTile& tile, Index texel, const Visit& visit) {
       const TexelClaim neighbour{x + dx, y + dy};
       if (tile.holds(neighbour)) visit(tile.texel(neighbour));
     }
+}
+
+/// The tiles as their faces read them: each direction goes on beyond the border if it does for one
+/// face. Where it does not for another, nearest_edges() finds nothing there.
+std::vector<TexelTile> tiles_as_read(const TexelMap& map) {
+  std::vector<TexelTile> tiles = map.tiles;
+  if (map.face_wraps.empty()) return tiles;
+  for (TexelTile& tile : tiles) tile.wrap = Wrap::clamp;
+  for (Index f = 0; f < map.face_wraps.size(); ++f) {
+    if (map.chart_of_face[f] == kNone) continue;
+    WrapModes& wrap = tiles[map.tile_number(f)].wrap;
+    if (wrap.u == Wrap::clamp) wrap.u = map.face_wraps[f].u;
+    if (wrap.v == Wrap::clamp) wrap.v = map.face_wraps[f].v;
+  }
+  return tiles;
 }
 
 /// Every texel of a tile that is on a chart and may have a neighbour on none.
@@ -223,15 +248,16 @@ std::vector<Index> gutter_texels(const TexelMap& map, int rings, int* grown) {
   for (Index i = 0; i < mask.size(); ++i)
     if (mask[i] == Coverage::touched) gutter.push_back(i);
 
+  const std::vector<TexelTile> tiles = tiles_as_read(map);
   std::vector<Index> front;
   if (rings > 0) {
-    for (const TexelTile& tile : map.tiles) add_border_texels(mask, tile, front);
+    for (const TexelTile& tile : tiles) add_border_texels(mask, tile, front);
   }
   int ring = 0;
   for (; ring < rings && !front.empty(); ++ring) {
     std::vector<Index> found;
     for (const Index texel : front)
-      visit_neighbours(tile_at(map, texel), texel, [&](Index n) {
+      visit_neighbours(tile_at(tiles, texel), texel, [&](Index n) {
         if (mask[n] == Coverage::none) found.push_back(n);
       });
     std::sort(found.begin(), found.end());

@@ -108,7 +108,7 @@ bool Settler::has_both(const TexelTile& tile, const TexelClaim& at, Index a, Ind
 
 /// Whether both charts claim two by two centres, this texel's or a neighbour's among them.
 bool Settler::lie_on_each_other(const Claim& a, const Claim& b) const {
-  const TexelTile& tile = atlas_.map.tile_of(a.face);
+  const TexelTile tile = atlas_.map.tile_of(a.face);
   const TexelClaim at = atlas_.map.claims[a.place];
   const auto both = [&](int x, int y) {
     return has_both(tile, {at.x + x, at.y + y}, chart(a), chart(b));
@@ -142,6 +142,13 @@ Settler::Part Settler::part_of(const Claim& claim) const {
 /// Whether two charts have less than kTouching of a texel's square in common.
 bool Settler::touch(const Part& a, const Part& b) const {
   if (a.faces.size() * b.faces.size() > kMostPairs) return false;
+  // Where one of them sees the texel turned over, the square is turned over with it.
+  const TexelTile tile = atlas_.map.tile_of(a.faces[0]), other = atlas_.map.tile_of(b.faces[0]);
+  const bool turn_x = tile.is_turned_x(a.at) != other.is_turned_x(b.at);
+  const bool turn_y = tile.is_turned_y(a.at) != other.is_turned_y(b.at);
+  const auto turn = [&](const Vec2& v, double size) {
+    return Vec2(turn_x ? size - v.x() : v.x(), turn_y ? size - v.y() : v.y());
+  };
   double common_area = 0;
   for (const Index f : a.faces) {
     const ConvexPolygon part = atlas_.triangle(f).part_in(a.at.x, a.at.y);
@@ -150,7 +157,8 @@ bool Settler::touch(const Part& a, const Part& b) const {
       const Vec2 corner{double(b.at.x), double(b.at.y)};
       ConvexPolygon common = part;
       for (const auto& e : triangle.edges)
-        common.clip(e.origin - corner, e.sign * Vec2(-e.direction.y(), e.direction.x()));
+        common.clip(turn(e.origin - corner, 1),
+                    turn(e.sign * Vec2(-e.direction.y(), e.direction.x()), 0));
       common_area += common.area();
     }
   }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include "onmesh/atlas/charts.h"
 #include "onmesh/atlas/claim_texels.h"
@@ -39,13 +40,12 @@ void check(const TriangleMesh& mesh, const std::vector<bool>& used, const TexelM
       throw FaceError<InputError>(f, "its UVs are not finite");
     if ((high - low).maxCoeff() > kMostTiles)
       throw FaceError<InputError>(f, "its UVs span more than 16384 tiles");
-    const TexelTile& tile = map.tile_of(f);
+    const TexelTile tile = map.tile_of(f);
     if (std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()) *
             std::max(tile.width, tile.height) >
         kFurthestTexel)
       throw FaceError<InputError>(f, "its UVs lie too far from [0,1]");
-    const Vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
-    if (tile.wrap == Wrap::repeat) total += std::abs(cross(a, b)) / 2 * tile.width * tile.height;
+    total += repeated_area(uv, tile.wrap) * tile.width * tile.height;
   }
   if (total > kMostClaims)
     throw InputError("the UVs repeat the texture too often: more than 2^31 texels are covered");
@@ -74,6 +74,26 @@ void make_transforms(const Atlas& atlas) {
   });
 }
 
+/// Give faces their own modes, as far as they differ from those of their tiles.
+void set_wraps(const TriangleMesh& mesh, const std::vector<bool>& used, TexelMap& map) {
+  std::vector<WrapModes> wraps(mesh.faces.size());
+  std::vector<std::optional<WrapModes>> only(map.tiles.size());  // of all faces in the tile
+  std::vector<bool> differ(map.tiles.size(), false);
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    const Index tile = map.tile_number(f);
+    wraps[f] = mesh.wrap_of(f, map.tiles[tile].wrap);
+    if (!used[f]) continue;
+    if (!only[tile]) only[tile] = wraps[f];
+    differ[tile] = differ[tile] || wraps[f] != *only[tile];
+  }
+  for (std::size_t i = 0; i < only.size(); ++i) {
+    if (only[i] && !differ[i]) map.tiles[i].wrap = *only[i];
+  }
+  if (std::find(differ.begin(), differ.end(), true) != differ.end()) {
+    map.face_wraps = std::move(wraps);
+  }
+}
+
 /// Number the charts of the rasterised faces.
 void make_charts(const Atlas& atlas) {
   std::vector<bool> rasterised(atlas.mesh.faces.size());
@@ -89,19 +109,31 @@ void mark_touched(const Atlas& atlas, const std::vector<Strip>& strips) {
   atlas.map.coverage.assign(std::size_t(last.first) + last.size(), Coverage::none);
   parallel_over(strips.size(), [&](std::size_t i) {
     const Strip& strip = strips[i];
-    const TexelTile& tile = atlas.map.tile_of(strip.face);
+    const TexelTile tile = atlas.map.tile_of(strip.face);
     const auto width = std::size_t(tile.width);
+    const bool is_mirrored = tile.wrap.u == Wrap::mirror;
+    const auto touch = [&](Index texel) {
+      std::atomic_ref<Coverage>(atlas.map.coverage[texel])
+          .store(Coverage::touched, std::memory_order_relaxed);
+    };
     const UvTriangle t = atlas.triangle(strip.face);
     for (std::int32_t row = strip.begin; row < strip.end; ++row) {
       auto columns = t.columns(row, atlas.tolerance);
-      clip(tile, columns, tile.width);
-      columns.second = std::min(columns.second, columns.first + tile.width);
+      clip(tile.wrap.u, columns, tile.width);
+      // Further columns show the same texels again.
+      const auto most = std::int64_t(tile.width) * (is_mirrored ? 2 : 1);
+      columns.second = std::min(columns.second, columns.first + most);
       if (columns.first >= columns.second) continue;
+      if (is_mirrored) {
+        for (auto x = columns.first; x < columns.second; ++x)
+          touch(tile.texel({std::int32_t(x), row}));
+        continue;
+      }
       const Index at = tile.texel({std::int32_t(columns.first), row}) - tile.first;
-      Coverage* line = &atlas.map.coverage[tile.first + at / width * width];
+      const auto line = Index(tile.first + at / width * width);
       std::size_t x = at % width;
       for (auto n = columns.second - columns.first; n > 0; --n) {
-        std::atomic_ref<Coverage>(line[x]).store(Coverage::touched, std::memory_order_relaxed);
+        touch(line + Index(x));
         if (++x == width) x = 0;
       }
     }
@@ -110,18 +142,17 @@ void mark_touched(const Atlas& atlas, const std::vector<Strip>& strips) {
 
 }  // namespace
 
+double repeated_area(const std::array<Vec2, 3>& uv, const WrapModes& wrap) {
+  if (wrap == Wrap::clamp) return 0;
+  const Vec2 size = uv[0].cwiseMax(uv[1]).cwiseMax(uv[2]) - uv[0].cwiseMin(uv[1]).cwiseMin(uv[2]);
+  const double area = std::abs(cross(uv[1] - uv[0], uv[2] - uv[0])) / 2;
+  if (wrap.u == Wrap::clamp) return std::min(area, size.y());
+  return wrap.v == Wrap::clamp ? std::min(area, size.x()) : area;
+}
+
 TexelClaim TexelTile::square_at(const Vec2& uv) const {
   const Vec2 pixel = to_pixels(uv, width, height);
   return {std::int32_t(std::floor(pixel.x())), std::int32_t(std::floor(pixel.y()))};
-}
-
-Index TexelTile::texel_at(const Vec2& uv) const {
-  TexelClaim square = square_at(uv);
-  if (wrap == Wrap::clamp) {
-    square.x = std::clamp(square.x, 0, width - 1);
-    square.y = std::clamp(square.y, 0, height - 1);
-  }
-  return texel(square);
 }
 
 Vec3 TexelMap::barycentric(Index face, const TexelClaim& claim) const {
@@ -203,7 +234,7 @@ double TexelMap::median_texel_size(Index tile) const {
   std::size_t claimed = 0;
   for (Index f = 0; f < texel_area.size(); ++f) {
     const Index count = face_offsets[f + 1] - face_offsets[f];
-    if (count == 0 || (tile != kNone && &tile_of(f) != &tiles[tile])) continue;
+    if (count == 0 || (tile != kNone && tile_number(f) != tile)) continue;
     sizes.emplace_back(std::sqrt(texel_area[f]), count);
     claimed += count;
   }
@@ -231,6 +262,7 @@ TexelMap make_texel_map(const TriangleMesh& mesh, std::vector<TexelTile> tiles,
     used[f] = mesh.has_uvs(f) && !has_repeated_vertex(mesh.faces[f]) &&
               (map.tile_of_face.empty() || map.tile_of_face[f] != kNone);
   }
+  set_wraps(mesh, used, map);
   check(mesh, used, map);
   const UvNeighbours neighbours(mesh, used);
   double tolerance = 0;

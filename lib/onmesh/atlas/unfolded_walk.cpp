@@ -100,7 +100,7 @@ bool UnfoldedWalk::uvs_agree(Index face, std::size_t k, Index other, std::size_t
 }
 
 std::array<Vec2, 3> UnfoldedWalk::pixel_corners(Index face) const {
-  const TexelTile& tile = map_.tile_of(face);
+  const TexelTile tile = map_.tile_of(face);
   std::array<Vec2, 3> corners;
   for (std::size_t k = 0; k < 3; ++k)
     corners[k] = to_pixels(mesh_.uvs[mesh_.face_uvs[face][k]], tile.width, tile.height);

@@ -102,6 +102,8 @@ void check_options(const FilterOptions& options, std::size_t faces) {
 void check_arrays(const TriangleMesh& mesh) {
   check_count("face_uvs", mesh.face_uvs.size(), mesh.faces.size());
   check_count("face_materials", mesh.face_materials.size(), mesh.faces.size());
+  const bool has_normals = !mesh.face_normals.empty();
+  if (has_normals) check_count("face_normals", mesh.face_normals.size(), mesh.faces.size());
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (mesh.faces[f][k] >= mesh.positions.size()) {
@@ -110,6 +112,10 @@ void check_arrays(const TriangleMesh& mesh) {
       const Index uv = mesh.face_uvs[f][k];
       if (uv != kNone && uv >= mesh.uvs.size()) {
         throw FaceError<InputError>(f, "a UV index is out of range");
+      }
+      const Index normal = has_normals ? mesh.face_normals[f][k] : kNone;
+      if (normal != kNone && normal >= mesh.normals.size()) {
+        throw FaceError<InputError>(f, "a normal index is out of range");
       }
     }
     const Index material = mesh.face_materials[f];

@@ -65,8 +65,9 @@ void require_memory_for_texels(const TriangleMesh& mesh, const SurfaceTextures& 
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     if (!mesh.has_uvs(f) || tiles[f] == kNone) continue;
     const TextureTile& tile = textures.tiles[tiles[f]];
-    if (tile.wrap == Wrap::clamp) continue;  // there are no more than the image has
-    const double area = std::abs(mesh.uv_area(f)) * tile.image->width * tile.image->height;
+    // What is clamped has no more than the image.
+    const double area = repeated_area(mesh.corner_uvs(f), mesh.wrap_of(f, tile.wrap)) *
+                        tile.image->width * tile.image->height;
     if (std::isfinite(area)) texels += area;
   }
   const double bytes = (kBytesPerClaim + kBytesPerTexel + kBytesPerSample) * texels;

@@ -65,7 +65,8 @@ struct FilterOptions {
   std::optional<double> r_coef;
   std::uint64_t seed = 1;  ///< of the Poisson samples, any
 
-  Wrap wrap = Wrap::repeat;            ///< one texture: how UVs outside [0,1] are read
+  /// One texture: how UVs outside [0,1] are read where materials do not say (Material::wrap).
+  Wrap wrap = Wrap::repeat;
   Overlap overlap = Overlap::average;  ///< texels that several places of the surface claim
   int gutter = 2;                      ///< rings of texels filled around the charts, [0, 32768]
   /// One texture, per face of the mesh as given: whether it carries it. Empty = all faces with UVs.

@@ -74,12 +74,15 @@ void warn_of_cleaning(const TriangleMesh& mesh, const CleanReport& report, Index
   }
 }
 
-/// Charts beyond their tile repeat it, which is meant for tiling textures, but not for UDIM.
+/// Charts beyond their tile repeat it, which is meant for tiling textures, but not for UDIM. Where
+/// the material says how it is read beyond, it is meant.
 void warn_of_wrapping(const TriangleMesh& mesh, const TexelMap& map,
                       std::vector<std::string>& warnings) {
   Index outside = 0;
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     if (map.chart_of_face[f] == kNone) continue;
+    const Index material = mesh.face_materials[f];
+    if (material != kNone && mesh.materials[material].wrap) continue;
     const auto uvs = mesh.corner_uvs(f);
     const Vec2 centre = (uvs[0] + uvs[1] + uvs[2]) / 3;
     outside += (centre.array() < 0).any() || (centre.array() > 1).any();
@@ -209,6 +212,9 @@ PreparedMesh prepare_mesh(const TriangleMesh& mesh, const SurfaceTextures& textu
                           const FilterOptions& options) {
   PreparedMesh out;
   out.mesh = weld(mesh);
+  // The filter shades nothing: what is made of the faces from here on needs no normals.
+  out.mesh.normals.clear();
+  out.mesh.face_normals.clear();
   const CoarseCoordinates coarse = find_coarse_coordinates(mesh, out.mesh);
   if (!coarse.problem.empty()) out.warnings.push_back(coarse.problem);
   out.mesh = join_boundaries(out.mesh, weld_tolerance(out.mesh, options), &out.joining);

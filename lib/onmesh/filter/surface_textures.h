@@ -16,10 +16,11 @@ namespace onmesh {
 /// One of them: that of a material, or a UDIM tile.
 struct TextureTile {
   const Image* image = nullptr;  ///< outlives the textures
-  Wrap wrap = Wrap::repeat;      ///< how UVs beyond the tile are read
-  int column = 0;                ///< of the unit square of UVs that it fills, from u = 0
-  int row = 0;                   ///< the same from v = 0: UDIM tile 1001 + column + 10 row
-  std::string name;              ///< what messages call it; may be empty if it is the only one
+  /// How UVs beyond the tile are read by faces whose material says nothing (Material::wrap).
+  WrapModes wrap;
+  int column = 0;    ///< of the unit square of UVs that it fills, from u = 0
+  int row = 0;       ///< the same from v = 0: UDIM tile 1001 + column + 10 row
+  std::string name;  ///< what messages call it; may be empty if it is the only one
 };
 
 /// All of them, each with its own size and wrap mode. They are one map: colour flows from one into
@@ -39,8 +40,9 @@ struct SurfaceTextures {
 };
 
 /// Give every face the UVs of its own tile, which is [0,1] then; faces without a tile lose theirs.
-/// Those of different tiles have no UV index in common afterwards: a tile's border ends its charts.
-/// A single tile at the origin changes nothing.
+/// Those of different tiles, and those that read their tile beyond its border differently, have no
+/// UV index in common afterwards: there charts end. A single tile at the origin that all faces
+/// read alike changes nothing.
 /// \param tile_of_face of the faces of `mesh`
 void make_uvs_local(const std::vector<TextureTile>& tiles, const std::vector<Index>& tile_of_face,
                     TriangleMesh& mesh);

@@ -11,7 +11,9 @@ namespace onmesh {
 /// A texel of weight 0 does not count, so that a value that is not finite spreads no further than
 /// bilinear weights do.
 /// \param out receives image.channels values
+/// \param wrap how the image goes on beyond its border: a texel there is the one of the image that
+///   its period shows, turned over or not, or the border's
 /// \pre the image is not empty, the UV is finite
-void bilinear(const Image& image, Wrap wrap, const Vec2& uv, float* out);
+void bilinear(const Image& image, const WrapModes& wrap, const Vec2& uv, float* out);
 
 }  // namespace onmesh

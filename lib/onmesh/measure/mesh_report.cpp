@@ -36,8 +36,8 @@ void count_charts(const TriangleMesh& mesh, MeshReport& r) {
     used[f] = mesh.has_uvs(f) && !has_repeated_vertex(mesh.faces[f]);
     holds_texels[f] = used[f] && mesh.face_area(f) > 0 && mesh.uv_area(f) != 0;
   }
-  Charts charts =
-      find_charts(UvNeighbours(mesh, used), used, holds_texels, number_textures(mesh).of_face);
+  Charts charts = find_charts(UvNeighbours(mesh, used), used, holds_texels,
+                              number_textures(mesh, true).of_face);
   r.charts = charts.count;
   r.chart_of_face = std::move(charts.chart_of_face);
 }
@@ -72,6 +72,15 @@ double quantile(const std::vector<Density>& ascending, double total_area, double
   return ascending.back().value;
 }
 
+/// A thousandth of a tile outside is a modelling program's padding, not tiling.
+bool is_beyond(const Vec2& uv) { return uv.minCoeff() < -0.001 || uv.maxCoeff() > 1.001; }
+
+/// The face's material says how its texture is read beyond [0,1].
+bool says_wrap(const TriangleMesh& mesh, Index face) {
+  const Index material = mesh.face_materials[face];
+  return material != kNone && mesh.materials[material].wrap.has_value();
+}
+
 void measure_uvs(const TriangleMesh& mesh, MeshReport& r) {
   std::vector<Density> densities;
   double total = 0;
@@ -87,6 +96,7 @@ void measure_uvs(const TriangleMesh& mesh, MeshReport& r) {
       r.uv_max = first ? uv : Vec2(r.uv_max.cwiseMax(uv));
       first = false;
     }
+    if (std::any_of(c.begin(), c.end(), is_beyond) && !says_wrap(mesh, f)) r.wraps_are_said = false;
     const double uv = mesh.uv_area(f), area = mesh.face_area(f);
     if (uv == 0) ++r.degenerate_uvs;
     if (uv < 0) ++r.mirrored_faces;
@@ -172,12 +182,13 @@ void advise_on_atlas(const MeshReport& r, Lines& lines) {
         "results, so give each part its own place or accept their average",
         100 * r.overlap_share, r.max_overlap));
   }
-  // A thousandth of a tile outside is a modelling program's padding, not tiling.
-  if (r.uv_min.minCoeff() < -0.001 || r.uv_max.maxCoeff() > 1.001) {
-    lines.push_back(format(
-        "UVs leave [0,1] (%.4g..%.4g x %.4g..%.4g): they repeat the texture; choose another wrap "
-        "mode, or split UDIM tiles, if that is not meant",
-        r.uv_min.x(), r.uv_max.x(), r.uv_min.y(), r.uv_max.y()));
+  if (is_beyond(r.uv_min) || is_beyond(r.uv_max)) {
+    lines.push_back(format("UVs leave [0,1] (%.4g..%.4g x %.4g..%.4g): ", r.uv_min.x(),
+                           r.uv_max.x(), r.uv_min.y(), r.uv_max.y()) +
+                    (r.wraps_are_said
+                         ? "the materials' wrap modes say what is there"
+                         : "they repeat the texture; choose another wrap mode, or split UDIM "
+                           "tiles, if that is not meant"));
   }
   if (r.density_max > 4 * r.density_min) {
     lines.push_back(format(

@@ -38,9 +38,11 @@ struct MeshReport {
   /// Share of the covered UV area that more than one face of the same texture claims, after
   /// wrapping into one tile. Estimated on a raster.
   double overlap_share = 0;
-  Index max_overlap = 0;                 ///< how many faces claim the same spot at most
-  Vec2 uv_min = Vec2::Zero();            ///< the lowest u and v of all faces' corners
-  Vec2 uv_max = Vec2::Zero();            ///< the highest
+  Index max_overlap = 0;       ///< how many faces claim the same spot at most
+  Vec2 uv_min = Vec2::Zero();  ///< the lowest u and v of all faces' corners
+  Vec2 uv_max = Vec2::Zero();  ///< the highest
+  /// All faces whose UVs leave [0,1] have a material that says how (Material::wrap).
+  bool wraps_are_said = true;
   std::vector<Index> component_of_face;  ///< per face, numbered by their first faces
   std::vector<Index> chart_of_face;      ///< kNone where a face holds no texels
 

@@ -36,7 +36,7 @@ std::vector<Seam> find_seams(const TriangleMesh& mesh, const TexelMap& map) {
 /// A side's image, and how UVs beyond it are read.
 struct Side {
   const Image& image;
-  Wrap wrap;
+  WrapModes wrap;
 
   double pixels(const Vec2& from, const Vec2& to) const {
     return (to - from).cwiseProduct(Vec2(image.width, image.height)).norm();
@@ -76,16 +76,17 @@ SeamError seam_error(const TriangleMesh& mesh, const TexelMap& map,
     if (map.tiles[i].width != images[i]->width || map.tiles[i].height != images[i]->height)
       throw InputError("the texel map is not of the image's size");
   }
-  const auto number = [&](Index face) { return Index(&map.tile_of(face) - map.tiles.data()); };
   std::vector<Seam> seams = find_seams(mesh, map);
   if (tile != kNone) {
     std::erase_if(seams, [&](const Seam& seam) {
-      return number(seam.face / 3) != tile && number(seam.other / 3) != tile;
+      return map.tile_number(seam.face / 3) != tile && map.tile_number(seam.other / 3) != tile;
     });
   }
   parallel_over(seams.size(), [&](std::size_t i) {
-    const Index a = number(seams[i].face / 3), b = number(seams[i].other / 3);
-    measure(mesh, {*images[a], map.tiles[a].wrap}, {*images[b], map.tiles[b].wrap}, seams[i]);
+    const auto side = [&](Index face) {
+      return Side{*images[map.tile_number(face)], map.tile_of(face).wrap};
+    };
+    measure(mesh, side(seams[i].face / 3), side(seams[i].other / 3), seams[i]);
   });
   SeamError result;
   double squares = 0;

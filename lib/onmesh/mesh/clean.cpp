@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -52,10 +53,11 @@ std::vector<bool> find_fins(const TriangleMesh& mesh, const std::vector<Index>& 
   return fin;
 }
 
-/// What a face's texels are: UVs by vertex, and texture.
+/// What a face's texels are: UVs by vertex, texture, and how that is read.
 struct Texels {
   std::array<std::array<Index, 2>, 3> uvs;
   std::string_view texture;
+  std::optional<WrapModes> wrap;
   bool operator==(const Texels&) const = default;
 };
 
@@ -66,7 +68,10 @@ Texels texels_of(const TriangleMesh& mesh, Index face) {
   }
   std::sort(texels.uvs.begin(), texels.uvs.end());
   const Index material = mesh.face_materials[face];
-  if (material != kNone) texels.texture = mesh.materials[material].texture;
+  if (material != kNone) {
+    texels.texture = mesh.materials[material].texture;
+    texels.wrap = mesh.materials[material].wrap;
+  }
   return texels;
 }
 
@@ -152,6 +157,7 @@ void wind(TriangleMesh& mesh, CleanReport& r) {
     if (!winding.flip[f]) continue;
     std::swap(mesh.faces[f][1], mesh.faces[f][2]);
     std::swap(mesh.face_uvs[f][1], mesh.face_uvs[f][2]);
+    if (!mesh.face_normals.empty()) std::swap(mesh.face_normals[f][1], mesh.face_normals[f][2]);
     ++r.flipped;
   }
 }

@@ -33,11 +33,13 @@ struct CleanReport {
 /// Make the mesh fit for filtering, and for a half-edge structure where that loses nothing: drop
 /// faces with repeated vertices, fins and components without area, settle faces on the same three
 /// vertices (below), then wind every component consistently (the winding of the majority of its
-/// area wins; components that have only one side stay as they are). UVs move with their corners.
+/// area wins; components that have only one side stay as they are). UVs and normals move with their
+/// corners.
 /// Faces without area that have neighbours with area stay: they join them. Positions and UVs that
 /// no face uses any more are dropped.
 ///
-/// Of faces on the same three vertices those with the same texels (UVs and texture) are one, and
+/// Of faces on the same three vertices those with the same texels (UVs, texture and wrap modes) are
+/// one, and
 /// those without texels (no UVs, or without area) go if another has some. What is left are layers,
 /// like the two sides of cloth or a decal on a wall: separate_coincident_faces() parts them.
 ///

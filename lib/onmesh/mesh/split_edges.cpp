@@ -203,6 +203,9 @@ std::vector<Index> split_faces(TriangleMesh& mesh, const std::vector<EdgeSplit>&
   mesh.faces = std::move(faces);
   mesh.face_uvs = std::move(face_uvs);
   mesh.face_materials = std::move(materials);
+  // Nothing that splits faces shades them, so their normals are not carried on.
+  mesh.normals.clear();
+  mesh.face_normals.clear();
   return source;
 }
 

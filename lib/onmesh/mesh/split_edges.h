@@ -27,7 +27,7 @@ std::vector<EdgeSplit> find_t_junctions(const TriangleMesh& mesh,
                                         const std::vector<bool>& left_apart);
 
 /// Make several faces of each face whose edges are to be split, in its place. Materials are kept,
-/// UVs are linear between the corners.
+/// UVs are linear between the corners, normals are dropped.
 /// \param splits as find_t_junctions() gives them
 /// \return per face of the result the face before that it is (a part of)
 std::vector<Index> split_faces(TriangleMesh& mesh, const std::vector<EdgeSplit>& splits);

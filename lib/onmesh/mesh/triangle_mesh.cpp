@@ -86,6 +86,15 @@ void compact(std::vector<Eigen::Matrix<double, N, 1>>& points,
   points = std::move(kept);
 }
 
+/// Adds a copy of the point for one corner.
+/// \return its number; kNone if there is no point
+template <class Point>
+Index copy_own(const std::vector<Point>& points, Index point, std::vector<Point>& own) {
+  if (point == kNone) return kNone;
+  own.push_back(points[point]);
+  return static_cast<Index>(own.size() - 1);
+}
+
 }  // namespace
 
 Vec3 TriangleMesh::position(const SurfacePoint& p) const {
@@ -144,6 +153,8 @@ TriangleMesh weld(const TriangleMesh& mesh) {
   TriangleMesh result = mesh;
   compact<3>(result.positions, result.faces, true);
   compact<2>(result.uvs, result.face_uvs, true);
+  // Equal normals stay apart: nothing is found by them.
+  compact<3>(result.normals, result.face_normals, false);
   return result;
 }
 
@@ -153,17 +164,17 @@ TriangleMesh loosen(const TriangleMesh& mesh) {
   result.precision = mesh.precision;
   result.face_materials = mesh.face_materials;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    std::array<Index, 3> corners{}, uvs{};
+    std::array<Index, 3> corners{}, uvs{}, normals{};
     for (std::size_t k = 0; k < 3; ++k) {
       corners[k] = static_cast<Index>(result.positions.size());
       result.positions.push_back(mesh.positions[mesh.faces[f][k]]);
-      uvs[k] = kNone;
-      if (mesh.face_uvs[f][k] == kNone) continue;
-      uvs[k] = static_cast<Index>(result.uvs.size());
-      result.uvs.push_back(mesh.uvs[mesh.face_uvs[f][k]]);
+      uvs[k] = copy_own(mesh.uvs, mesh.face_uvs[f][k], result.uvs);
+      if (mesh.face_normals.empty()) continue;
+      normals[k] = copy_own(mesh.normals, mesh.face_normals[f][k], result.normals);
     }
     result.faces.push_back(corners);
     result.face_uvs.push_back(uvs);
+    if (!mesh.face_normals.empty()) result.face_normals.push_back(normals);
   }
   return result;
 }
@@ -191,6 +202,7 @@ TriangleMesh extract_faces(const TriangleMesh& mesh, const std::vector<bool>& ke
   TriangleMesh result;
   result.positions = mesh.positions;
   result.uvs = mesh.uvs;
+  result.normals = mesh.normals;
   result.materials = mesh.materials;
   result.precision = mesh.precision;
   for (Index f = 0; f < keep.size(); ++f) {
@@ -198,9 +210,11 @@ TriangleMesh extract_faces(const TriangleMesh& mesh, const std::vector<bool>& ke
     result.faces.push_back(mesh.faces[f]);
     result.face_uvs.push_back(mesh.face_uvs[f]);
     result.face_materials.push_back(mesh.face_materials[f]);
+    if (!mesh.face_normals.empty()) result.face_normals.push_back(mesh.face_normals[f]);
   }
   compact<3>(result.positions, result.faces, false);
   compact<2>(result.uvs, result.face_uvs, false);
+  compact<3>(result.normals, result.face_normals, false);
   return result;
 }
 

@@ -31,12 +31,22 @@ struct TriangleMesh {
   std::vector<std::array<Index, 3>> face_uvs;  ///< into uvs, one per face; kNone = no UV there
   std::vector<Index> face_materials;           ///< into materials, one per face; kNone = none
   std::vector<Material> materials;             ///< in the order of the file
-  CoordinatePrecision precision;               ///< of the positions as they were stored
+  std::vector<Vec3> normals;                   ///< as the file has them, of any length
+  /// Into normals, one per face; kNone = no normal there. Empty if there are none at all.
+  std::vector<std::array<Index, 3>> face_normals;
+  CoordinatePrecision precision;  ///< of the positions as they were stored
 
   /// All three corners of the face have a UV.
   bool has_uvs(Index face) const {
     const auto& c = face_uvs[face];
     return c[0] != kNone && c[1] != kNone && c[2] != kNone;
+  }
+  /// How the face's texture is read beyond [0,1].
+  /// \param otherwise where its material does not say
+  WrapModes wrap_of(Index face, const WrapModes& otherwise) const {
+    const Index material = face_materials.empty() ? kNone : face_materials[face];
+    if (material == kNone) return otherwise;
+    return materials[material].wrap.value_or(otherwise);
   }
   /// Positions of the face's corners.
   std::array<Vec3, 3> corners(Index face) const {
@@ -73,18 +83,18 @@ inline bool has_repeated_vertex(const std::array<Index, 3>& face) {
 }
 
 /// Merge vertices of bitwise equal position and UVs of equal value (-0 counts as 0), and drop
-/// positions and UVs that no face uses. Faces keep their order, and so does what is left of the
-/// positions and UVs: a welded mesh stays as it is.
+/// positions, UVs and normals that no face uses. Faces keep their order, and so does what is left
+/// of the others: a welded mesh stays as it is.
 TriangleMesh weld(const TriangleMesh& mesh);
 
-/// The opposite: every face gets positions and UVs of its own (a triangle soup).
+/// The opposite: every face gets positions, UVs and normals of its own (a triangle soup).
 TriangleMesh loosen(const TriangleMesh& mesh);
 
 /// Vertices that faces of several materials use are split: each material gets one of its own, so
 /// that the surface ends where materials do.
 TriangleMesh separate_materials(const TriangleMesh& mesh);
 
-/// The faces for which keep[face] is set, in their order, with unused positions and UVs dropped.
+/// The faces for which keep[face] is set, in their order; what only others use is dropped.
 /// \pre keep has an entry per face
 TriangleMesh extract_faces(const TriangleMesh& mesh, const std::vector<bool>& keep);
 

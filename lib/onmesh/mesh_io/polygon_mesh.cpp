@@ -7,32 +7,55 @@
 #include "onmesh/mesh_io/polygon_triangulation.h"
 
 namespace onmesh {
+namespace {
+
+/// Corners lose values that are not finite, which become zero.
+/// \return how many there were
+template <class Value>
+std::size_t drop_missing(std::vector<Value>& values, std::vector<Index>& corners) {
+  const auto missing = std::count_if(values.begin(), values.end(),
+                                     [](const Value& value) { return !value.allFinite(); });
+  if (missing == 0) return 0;
+  for (Index& i : corners) {
+    if (i != kNone && !values[i].allFinite()) i = kNone;
+  }
+  for (Value& value : values) {
+    if (!value.allFinite()) value.setZero();
+  }
+  return static_cast<std::size_t>(missing);
+}
+
+}  // namespace
 
 void drop_missing_uvs(PolygonMesh& polygons, const std::string& file, ReadReport& report) {
-  std::vector<Vec2>& uvs = polygons.mesh.uvs;
-  const auto missing =
-      std::count_if(uvs.begin(), uvs.end(), [](const Vec2& uv) { return !uv.allFinite(); });
+  const std::size_t missing = drop_missing(polygons.mesh.uvs, polygons.corner_uvs);
+  if (missing > 0) report.warnings.push_back(missing_uvs_text(file, missing));
+}
+
+std::string missing_uvs_text(const std::string& file, std::size_t missing) {
+  return file + ": " + std::to_string(missing) +
+         " texture coordinates are not finite and count as missing";
+}
+
+void drop_missing_normals(PolygonMesh& polygons, const std::string& file, ReadReport& report) {
+  const std::size_t missing = drop_missing(polygons.mesh.normals, polygons.corner_normals);
   if (missing == 0) return;
-  for (Index& uv : polygons.corner_uvs) {
-    if (uv != kNone && !uvs[uv].allFinite()) uv = kNone;
-  }
-  for (Vec2& uv : uvs) {
-    if (!uv.allFinite()) uv.setZero();
-  }
   report.warnings.push_back(file + ": " + std::to_string(missing) +
-                            " texture coordinates are not finite and count as missing");
+                            " normals are not finite and count as missing");
 }
 
 TriangleMesh triangulate(PolygonMesh polygons, const std::string& file) {
   TriangleMesh mesh = std::move(polygons.mesh);
   if (polygons.polygon_end.empty()) throw InputError(file + ": has no faces");
   const std::size_t faces = polygons.corners.size() - 2 * polygons.polygon_end.size();
-  if (std::max({mesh.positions.size(), mesh.uvs.size(), faces}) >= kNone) {
+  if (std::max({mesh.positions.size(), mesh.uvs.size(), mesh.normals.size(), faces}) >= kNone) {
     throw InputError(file + ": has more vertices or faces than 32 bits can count");
   }
   mesh.faces.reserve(faces);
   mesh.face_uvs.reserve(faces);
   mesh.face_materials.reserve(faces);
+  const bool has_normals = !polygons.corner_normals.empty();
+  if (has_normals) mesh.face_normals.reserve(faces);
   std::vector<Vec3> points;
   std::size_t begin = 0;
   for (std::size_t p = 0; p < polygons.polygon_end.size(); ++p) {
@@ -43,6 +66,7 @@ TriangleMesh triangulate(PolygonMesh polygons, const std::string& file) {
       };
       mesh.faces.push_back(pick(polygons.corners));
       mesh.face_uvs.push_back(pick(polygons.corner_uvs));
+      if (has_normals) mesh.face_normals.push_back(pick(polygons.corner_normals));
       mesh.face_materials.push_back(polygons.polygon_materials[p]);
     };
     if (end - begin == 3) {

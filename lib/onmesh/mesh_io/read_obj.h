@@ -9,10 +9,11 @@
 
 namespace onmesh {
 
-/// Read an OBJ and the material files that it names, which are looked for beside it.
+/// Read an OBJ and its material files: see find_obj_materials(). UVs are those that the textures'
+/// options make of them.
 /// \param path of the file, for messages and to find the files that it names
 /// \param content the whole of it
-/// \param warnings if given, receives one line per thing that was ignored or repaired
+/// \param report receives what was read, ignored, assumed or repaired
 /// \throw InputError naming the file and what is wrong with it
 TriangleMesh read_obj(const std::filesystem::path& path, const std::string& content,
                       const ReadOptions& options, ReadReport& report);

@@ -9,7 +9,7 @@
 #include "onmesh/base/error.h"
 #include "onmesh/base/text.h"
 #include "onmesh/base/text_scan.h"
-#include "onmesh/mesh_io/find_texture.h"
+#include "onmesh/mesh_io/named_files.h"
 #include "onmesh/mesh_io/ply_faces.h"
 #include "onmesh/mesh_io/ply_header.h"
 #include "onmesh/mesh_io/ply_properties.h"
@@ -226,7 +226,7 @@ std::string texture_name(std::string name, const std::string& stem) {
 }  // namespace
 
 TriangleMesh read_ply(const std::filesystem::path& path, const std::string& content,
-                      const ReadOptions& /*options*/, ReadReport& report) {
+                      const ReadOptions& options, ReadReport& report) {
   const std::string file = path.string();
   const PlyHeader header = read_ply_header(content, file);
   report_header(header, file, report);
@@ -236,12 +236,13 @@ TriangleMesh read_ply(const std::filesystem::path& path, const std::string& cont
   } else {
     polygons = PlyReader(PlyBinaryValues(content, header, file), header, file, report).run();
   }
+  NamedFiles named(path, options, report);
   const std::string stem = path.stem().string();
   bool stands_for_stem = false;
   for (const std::string& texture : header.textures) {
     const std::string name = texture_name(texture, stem);
     stands_for_stem |= name != texture;
-    polygons.mesh.materials.push_back({texture, find_texture(name, path.parent_path())});
+    polygons.mesh.materials.push_back({texture, named.path_of(name, path)});
   }
   if (stands_for_stem) report.assumed.push_back("<this> in TextureFile stands for " + stem);
   return triangulate(std::move(polygons), file);

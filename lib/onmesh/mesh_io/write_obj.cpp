@@ -64,9 +64,19 @@ std::string mtl_content(const TriangleMesh& mesh, const std::vector<std::string>
         fs::relative(mesh.materials[i].texture, folder.empty() ? "." : folder, error);
     const std::string name =
         error || texture.empty() ? mesh.materials[i].texture : texture.string();
-    out += "map_Kd " + file_name(name) + "\n";
+    // MTL has no words for other modes than repeating, and none for one direction alone.
+    const bool clamps = mesh.materials[i].wrap == WrapModes(Wrap::clamp);
+    out += std::string("map_Kd ") + (clamps ? "-clamp on " : "") + file_name(name) + "\n";
   }
   return out;
+}
+
+void append_points(std::string& out, const char* keyword, const std::vector<Vec3>& points) {
+  for (const Vec3& p : points) {
+    out += keyword;
+    for (int i = 0; i < 3; ++i) append_number(out += ' ', p[i]);
+    out += '\n';
+  }
 }
 
 /// The mesh as an OBJ.
@@ -75,18 +85,16 @@ std::string mtl_content(const TriangleMesh& mesh, const std::vector<std::string>
 std::string obj_content(const TriangleMesh& mesh, const std::vector<std::string>& names,
                         const fs::path& mtl) {
   std::string out;
-  out.reserve(mesh.positions.size() * 48 + mesh.uvs.size() * 40 + mesh.faces.size() * 40);
+  out.reserve(mesh.positions.size() * 48 + mesh.uvs.size() * 40 + mesh.normals.size() * 48 +
+              mesh.faces.size() * 40);
   if (!names.empty()) out += "mtllib " + file_name(mtl.filename().string()) + "\n";
-  for (const Vec3& p : mesh.positions) {
-    out += 'v';
-    for (int i = 0; i < 3; ++i) append_number(out += ' ', p[i]);
-    out += '\n';
-  }
+  append_points(out, "v", mesh.positions);
   for (const Vec2& uv : mesh.uvs) {
     append_number(out += "vt ", uv.x());
     append_number(out += ' ', uv.y());
     out += '\n';
   }
+  append_points(out, "vn", mesh.normals);
   Index material = kNone;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (mesh.face_materials[f] != material) {
@@ -95,9 +103,12 @@ std::string obj_content(const TriangleMesh& mesh, const std::vector<std::string>
     }
     out += 'f';
     for (std::size_t k = 0; k < 3; ++k) {
+      const Index uv = mesh.face_uvs[f][k];
+      const Index normal = mesh.face_normals.empty() ? kNone : mesh.face_normals[f][k];
       out += ' ' + std::to_string(std::size_t{mesh.faces[f][k]} + 1);
-      if (mesh.face_uvs[f][k] != kNone)
-        out += '/' + std::to_string(std::size_t{mesh.face_uvs[f][k]} + 1);
+      if (uv != kNone || normal != kNone) out += '/';
+      if (uv != kNone) out += std::to_string(std::size_t{uv} + 1);
+      if (normal != kNone) out += '/' + std::to_string(std::size_t{normal} + 1);
     }
     out += '\n';
   }

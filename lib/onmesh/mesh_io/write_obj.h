@@ -7,11 +7,11 @@
 
 namespace onmesh {
 
-/// Write an OBJ with UVs and materials, and its MTL beside it when the mesh has materials.
+/// Write an OBJ with UVs, normals and materials, and its MTL beside it when the mesh has materials.
 ///
 /// Coordinates are written so that they read back bit for bit. Both files are written atomically
 /// (temporary file, then rename). Nameless and equally named materials get a number; textures are
-/// named relative to the file's folder.
+/// named relative to the file's folder. Of wrap modes only clamping both ways is written.
 /// \throw FileError if a file cannot be written
 void write_obj(const std::filesystem::path& path, const TriangleMesh& mesh);
 

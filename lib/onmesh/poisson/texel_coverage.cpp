@@ -69,7 +69,7 @@ class TexelFiller {
     const TexelClaim& texel = map_.claims[claim];
     const Index chart = map_.chart_of_face[lookup_.face_of(claim)];
     const auto triangle = [&](Index f) {
-      const TexelTile& tile = map_.tile_of(f);
+      const TexelTile tile = map_.tile_of(f);
       return UvTriangle(disks_.mesh(), f, tile.width, tile.height, 0);
     };
     Index best = lookup_.face_of(claim);

@@ -200,7 +200,7 @@ class Scene {
     const Vec2 at = interpolate(mesh_.corner_uvs(f), b);
     if (!at.allFinite()) return kGrey;
     buffer.resize(std::size_t(texture->channels));
-    bilinear(*texture, options_.wrap, at, buffer.data());
+    bilinear(*texture, mesh_.wrap_of(f, options_.wrap), at, buffer.data());
     return display_colour(buffer.data(), texture->channels);
   }
 

@@ -19,7 +19,7 @@ struct RenderOptions {
   int supersampling = 2;          ///< samples per pixel and direction, [1, 8]
   bool light = true;              ///< soft headlight shading; off shows texture values as they are
   bool wireframe = false;         ///< draw the mesh's edges
-  Wrap wrap = Wrap::repeat;       ///< what UVs outside [0,1] mean
+  WrapModes wrap;                 ///< what UVs outside [0,1] mean where materials do not say
   Vec3 background{1, 1, 1};       ///< a colour in [0,1]
   Vec3 up{0, 1, 0};               ///< a direction of the mesh's space, of any length
 };

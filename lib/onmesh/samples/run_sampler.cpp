@@ -64,7 +64,7 @@ void RunSampler::sample_clamped(Index begin, Index end, const Eigen::Matrix3d& t
 void RunSampler::sample_inside(Index begin, Index end, const Eigen::Matrix3d& to_node,
                                Sample* out) const {
   const TexelClaim* const claims = map_.claims.data() + begin;
-  const TexelTile& tile = map_.tile_of(face_);
+  const TexelTile tile = map_.tile_of(face_);
   const Index count = end - begin;
   const int left = claims[0].x;
   const Vec3 start = to_node * barycentric(begin),

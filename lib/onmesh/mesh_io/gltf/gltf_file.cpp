@@ -11,7 +11,6 @@
 #include "onmesh/base/file_io.h"
 #include "onmesh/base/process_memory.h"
 #include "onmesh/base/text_scan.h"
-#include "onmesh/mesh_io/find_texture.h"
 #include "onmesh/mesh_io/gltf/compression.h"
 #include "onmesh/mesh_io/gltf/uri.h"
 
@@ -77,7 +76,10 @@ bool is_glb(std::string_view content) { return content.starts_with(kMagic); }
 
 GltfFile::GltfFile(fs::path path, std::string_view content, const ReadOptions& options,
                    ReadReport& report)
-    : path_(std::move(path)), name_(path_.string()), options_(options), report_(report) {
+    : path_(std::move(path)),
+      name_(path_.string()),
+      files_(path_, options, report),
+      report_(report) {
   constexpr double kLeast = 128 << 20;
   memory_left_ = kLeast + kMostPerByte * double(content.size());
   json_text_ = content;
@@ -160,7 +162,7 @@ void GltfFile::check_extensions() {
 fs::path GltfFile::file_of(const JsonPlace& uri) {
   const std::string decoded = percent_decoded(uri.text());
   if (decoded.empty() || decoded.find('\0') != std::string::npos) uri.fail("is no name of a file");
-  return find_texture(decoded, path_.parent_path());
+  return files_.path_of(decoded, path_);
 }
 
 std::string GltfFile::content_of(const JsonPlace& uri) {

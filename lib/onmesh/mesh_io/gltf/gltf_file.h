@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "onmesh/mesh_io/gltf/json_place.h"
+#include "onmesh/mesh_io/named_files.h"
 #include "onmesh/mesh_io/reading.h"
 
 namespace onmesh {
@@ -79,7 +80,7 @@ class GltfFile {
 
   std::filesystem::path path_;
   std::string name_;
-  ReadOptions options_;
+  NamedFiles files_;
   ReadReport& report_;
   std::string_view json_text_;
   std::vector<GlbChunk> chunks_;

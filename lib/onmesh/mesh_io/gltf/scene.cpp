@@ -86,7 +86,8 @@ std::vector<Index> SceneWalk::roots() const {
     return all_roots();
   }
   const auto chosen = file_.root().find_index("scene", scenes);
-  if (!chosen) file_.report().assumed.emplace_back("no scene is the default: the first one is shown");
+  if (!chosen)
+    file_.report().assumed.emplace_back("no scene is the default: the first one is shown");
   file_.report().read.push_back("scene " + std::to_string(chosen.value_or(0)) + " of " +
                                 std::to_string(scenes));
   const auto nodes = file_.element("scenes", chosen.value_or(0)).find("nodes");
