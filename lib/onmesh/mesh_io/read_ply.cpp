@@ -214,7 +214,7 @@ void report_header(const PlyHeader& header, const std::string& file, ReadReport&
 }
 
 /// The name of a texture, in which "<this>" stands for the mesh's own name without extension.
-std::string texture_name(std::string name, const std::string& stem) {
+std::string expand_this(std::string name, const std::string& stem) {
   constexpr std::string_view kThis = "<this>";
   for (std::size_t at = name.find(kThis); at != std::string::npos;
        at = name.find(kThis, at + stem.size())) {
@@ -240,7 +240,7 @@ TriangleMesh read_ply(const std::filesystem::path& path, const std::string& cont
   const std::string stem = path.stem().string();
   bool stands_for_stem = false;
   for (const std::string& texture : header.textures) {
-    const std::string name = texture_name(texture, stem);
+    const std::string name = expand_this(texture, stem);
     stands_for_stem |= name != texture;
     polygons.mesh.materials.push_back({texture, named.path_of(name, path)});
   }
