@@ -247,7 +247,7 @@ TriangleMesh read_ply(const std::filesystem::path& path, const std::string& cont
   }
   NamedFiles named(path, options, report);
   for (const std::string& texture : header.textures) {
-    polygons.mesh.materials.push_back({texture, named.path_of(texture, path)});
+    polygons.mesh.materials.push_back({texture, named.path_of({texture}, path)});
   }
   return triangulate(std::move(polygons), file);
 }
