@@ -89,7 +89,7 @@ TEST_CASE("absolute paths and URLs are never followed", "[named_files]") {
     CHECK(places.find(name) == "nothing");
     // Not in the path for the message either.
     NamedFiles files(places / "model/m.obj", {}, places.report);
-    CHECK(files.path_of(name, places / "model/m.obj") == (places / "model/out.png").string());
+    CHECK(files.path_of({name}, places / "model/m.obj") == (places / "model/out.png").string());
   }
 }
 
@@ -181,7 +181,7 @@ TEST_CASE("of several readings of a name the first with a file counts", "[named_
   NamedFiles again(obj, {}, places.report);
   CHECK(again.find(readings, obj) == places / "model/a.png # c");
   CHECK(again.path_of({"none.png # c", "none.png"}, obj) == (places / "model/none.png").string());
-  CHECK(again.path_of("", obj).empty());
+  CHECK(again.path_of({""}, obj).empty());
 }
 
 }  // namespace

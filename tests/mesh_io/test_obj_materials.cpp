@@ -14,18 +14,19 @@ namespace {
 namespace fs = std::filesystem;
 using Catch::Contains;
 
-const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+const std::string kOneSquare =
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
 
 /// A folder with an OBJ of one face per material.
 struct Model {
   std::string read(const std::string& head, const std::vector<std::string>& materials,
                    const ReadOptions& options = {}) {
-    std::string text = head + kSquare;
+    std::string text = head + kOneSquare;
     for (const std::string& material : materials)
       text += "usemtl " + material + "\nf 1/1 2/2 3/3\n";
     report = {};
     mesh = read_mesh(folder.file("m.obj", text), &report, options);
-    return texture(0);
+    return mesh.materials.empty() ? std::string() : texture(0);
   }
   /// The file name of a material's texture.
   std::string texture(std::size_t material) const {

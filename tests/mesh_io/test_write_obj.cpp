@@ -30,7 +30,6 @@ TEST_CASE("a written OBJ reads back bit for bit", "[write_obj]") {
   }
   mesh.normals = {{0, 0, 1}, {1e-300, -0.1, 3}};
   mesh.face_normals.assign(298, {kNone, 1, 0});
-  mesh.materials[0].wrap = Wrap::clamp;
   const auto path = folder.path() / "out.obj";
   write_obj(path, mesh);
   ReadReport report;
@@ -50,10 +49,30 @@ TEST_CASE("a written OBJ reads back bit for bit", "[write_obj]") {
   CHECK(back.face_normals == mesh.face_normals);
   REQUIRE(back.materials.size() == 4);
   CHECK(back.materials[0].texture == mesh.materials[0].texture);
-  CHECK(back.materials[0].wrap == WrapModes(Wrap::clamp));
   CHECK(back.materials[2].texture.empty());
   // Nothing but the two files is left.
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 3);
+}
+
+TEST_CASE("a material that is clamped stays so in an OBJ", "[write_obj]") {
+  const TempFolder folder;
+  folder.file("t.png", "");
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::string texture = (folder.path() / "t.png").string();
+  mesh.materials = {{"a", texture, Wrap::clamp}, {"b", texture, Wrap::mirror}, {"c", texture}};
+  for (Index m = 0; m < 3; ++m) {
+    mesh.faces.push_back({0, 1, 2});
+    mesh.face_uvs.push_back({kNone, kNone, kNone});
+    mesh.face_materials.push_back(m);
+  }
+  write_obj(folder.path() / "out.obj", mesh);
+  const TriangleMesh back = read_mesh(folder.path() / "out.obj");
+  REQUIRE(back.materials.size() == 3);
+  CHECK(back.materials[0].wrap == WrapModes(Wrap::clamp));
+  CHECK_FALSE(back.materials[1].wrap);  // MTL has no word for it
+  CHECK_FALSE(back.materials[2].wrap);
+  CHECK(back.materials[0].texture == texture);
 }
 
 TEST_CASE("names that an OBJ would take for something else keep their faces", "[write_obj]") {

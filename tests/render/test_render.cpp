@@ -221,10 +221,10 @@ TEST_CASE("a material's wrap mode goes before the picture's", "[render]") {
   RenderOptions options;
   options.width = options.height = 64;
   options.light = false;
-  const auto picture = [&](std::optional<WrapModes> material, WrapModes picture) {
+  const auto picture = [&](std::optional<WrapModes> material, WrapModes otherwise) {
     mesh.materials = {{"m", {}, material}};
     mesh.face_materials.assign(mesh.faces.size(), 0);
-    options.wrap = picture;
+    options.wrap = otherwise;
     return render(mesh, colour, options).pixels;
   };
   const auto mirrored = picture({}, Wrap::mirror);

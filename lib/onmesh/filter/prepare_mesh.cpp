@@ -75,7 +75,7 @@ void warn_of_cleaning(const TriangleMesh& mesh, const CleanReport& report, Index
 }
 
 /// Charts beyond their tile repeat it, which is meant for tiling textures, but not for UDIM. Where
-/// the material says how it is read beyond, it is meant.
+/// the material, or another mode than the default, says how it is read beyond, it is meant.
 void warn_of_wrapping(const TriangleMesh& mesh, const TexelMap& map,
                       std::vector<std::string>& warnings) {
   Index outside = 0;
@@ -83,6 +83,7 @@ void warn_of_wrapping(const TriangleMesh& mesh, const TexelMap& map,
     if (map.chart_of_face[f] == kNone) continue;
     const Index material = mesh.face_materials[f];
     if (material != kNone && mesh.materials[material].wrap) continue;
+    if (map.tile_of(f).wrap != Wrap::repeat) continue;
     const auto uvs = mesh.corner_uvs(f);
     const Vec2 centre = (uvs[0] + uvs[1] + uvs[2]) / 3;
     outside += (centre.array() < 0).any() || (centre.array() > 1).any();

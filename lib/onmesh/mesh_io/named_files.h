@@ -47,10 +47,6 @@ class NamedFiles {
   /// messages can name it and placeholders for tiles be filled in; empty for an empty name.
   std::string path_of(const std::vector<std::string>& readings,
                       const std::filesystem::path& naming);
-  /// The same for a name that can be read in one way only.
-  std::string path_of(const std::string& name, const std::filesystem::path& naming) {
-    return path_of(std::vector<std::string>{name}, naming);
-  }
 
  private:
   using Path = std::filesystem::path;

@@ -99,7 +99,7 @@ class ObjMaterialReader {
       for (const std::string& word : words) read_named(word);
       return;
     }
-    read_file(files_.path_of(name, obj_));  // says why not
+    read_file(files_.path_of({name}, obj_));  // says why not
     read_namesake();
   }
 

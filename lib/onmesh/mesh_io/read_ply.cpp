@@ -242,7 +242,7 @@ TriangleMesh read_ply(const std::filesystem::path& path, const std::string& cont
   for (const std::string& texture : header.textures) {
     const std::string name = expand_this(texture, stem);
     stands_for_stem |= name != texture;
-    polygons.mesh.materials.push_back({texture, named.path_of(name, path)});
+    polygons.mesh.materials.push_back({texture, named.path_of({name}, path)});
   }
   if (stands_for_stem) report.assumed.push_back("<this> in TextureFile stands for " + stem);
   return triangulate(std::move(polygons), file);

@@ -162,7 +162,7 @@ void GltfFile::check_extensions() {
 fs::path GltfFile::file_of(const JsonPlace& uri) {
   const std::string decoded = percent_decoded(uri.text());
   if (decoded.empty() || decoded.find('\0') != std::string::npos) uri.fail("is no name of a file");
-  return files_.path_of(decoded, path_);
+  return files_.path_of({decoded}, path_);
 }
 
 std::string GltfFile::content_of(const JsonPlace& uri) {
