@@ -133,10 +133,6 @@ TEST_CASE("a bad OBJ is refused with file and line", "[read_obj]") {
   CHECK_THAT(fails("f 1 2 x"), StartsWith("m.obj:9: face corner is not a number: 'x'"));
   CHECK_THAT(fails("f 1 2 3.5"), StartsWith("m.obj:9: face corner is not a number"));
   CHECK_THAT(fails("f 1 2 /3"), StartsWith("m.obj:9: face corner without a vertex"));
-  CHECK(fails("f 1//5 2 3") == "m.obj:9: normal index 5 is out of range (0 in all)");
-  CHECK(fails("f 1//0 2 3") == "m.obj:9: normal index 0 (indices start at 1)");
-  CHECK(fails("f 1/1/-1 2 3") == "m.obj:9: normal index -1 is out of range (0 so far)");
-  CHECK_THAT(fails("f 1//x 2 3"), StartsWith("m.obj:9: face corner is not a number"));
   CHECK_THAT(fails("vn 0 0"), StartsWith("m.obj:9: normal is missing"));
   CHECK_THAT(fails("v 1 2"), StartsWith("m.obj:9: coordinate is missing"));
   CHECK_THAT(fails("v 1 2 1,5"), StartsWith("m.obj:9: coordinate is not a number: '1,5'"));
@@ -165,6 +161,18 @@ TEST_CASE("normals of an OBJ stay with their corners", "[read_obj]") {
   CHECK(parse(kSquare + "f 1// 2// 3//\n").face_normals.empty());
   CHECK(parse(kSquare + "f 1//1 2//1 3//1\nvn 0 0 1\n").face_normals ==
         std::vector<Face>{{0, 0, 0}});
+}
+
+TEST_CASE("references to normals that lead nowhere cost no more than them", "[read_obj]") {
+  for (const std::string corner : {"1//5", "1//0", "1/1/-1", "1//x", "1//1/1"}) {
+    INFO(corner);
+    ReadReport report;
+    const TriangleMesh mesh = parse(kSquare + "vn 0 0 1\nf " + corner + " 2//1 3//1\n", &report);
+    REQUIRE(mesh.face_normals.size() == 1);
+    const bool is_last = corner == "1/1/-1";  // which there is
+    CHECK(mesh.face_normals[0] == Face{is_last ? 0 : kNone, 0, 0});
+    CHECK(report.warnings.size() == (is_last ? 0 : 1));
+  }
 }
 
 TEST_CASE("a normal that is not finite costs only its own corners", "[read_obj]") {

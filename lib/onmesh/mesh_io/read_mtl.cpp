@@ -71,7 +71,7 @@ void apply(const MapOption& option, const std::vector<std::string_view>& words,
     (option.name == "-s" ? texture.scale : texture.offset) = value;
   } else if (!is_neutral(option, words)) {
     std::string text(option.name);
-    for (const std::string_view word : words) text += " " + quote(word);
+    for (const std::string_view word : words) (text += ' ') += quote(word);
     texture.ignored.push_back(text);
   } else if (option.name == "-clamp") {
     texture.wrap = means(words[0], "on") ? Wrap::clamp : Wrap::repeat;

@@ -19,13 +19,11 @@ namespace onmesh {
 namespace fs = std::filesystem;
 namespace {
 
-/// What a corner of a face refers to.
-enum class Reference { vertex, uv, normal };
+/// What a corner of a face must not refer to wrongly.
+enum class Reference { vertex, uv };
 
 const char* name_of(Reference kind) {
-  return kind == Reference::vertex ? "vertex"
-         : kind == Reference::uv   ? "texture coordinate"
-                                   : "normal";
+  return kind == Reference::vertex ? "vertex" : "texture coordinate";
 }
 
 /// A keyword that has no meaning here, and what it stands for.
@@ -148,6 +146,21 @@ class ObjReader {
     return static_cast<Index>(index);
   }
 
+  /// The reference to a normal. The surface is the same without: one that leads nowhere is none.
+  Index normal_reference(std::string_view text) {
+    if (text.empty()) return kNone;
+    long long value = 0;
+    const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto count = static_cast<long long>(out_.mesh.normals.size());
+    const long long index = value < 0 ? count + value : value - 1;
+    if (error != std::errc() || last != text.data() + text.size() || index < 0 || index >= kNone) {
+      ++bad_normals_;
+      return kNone;
+    }
+    has_forward_normals_ |= index >= count;
+    return static_cast<Index>(index);
+  }
+
   void read_face() {
     std::size_t count = 0;
     for (std::string_view corner = scan_.token(); !corner.empty();
@@ -161,7 +174,7 @@ class ObjReader {
       }
       if (!corner.empty()) {
         corner.remove_prefix(1);
-        normal = reference(corner, out_.mesh.normals.size(), Reference::normal);
+        normal = normal_reference(corner);
       }
       if (position == kNone) scan_.fail("face corner without a vertex: " + quote(whole));
       out_.add_corner(position, uv, normal);
@@ -218,11 +231,20 @@ class ObjReader {
   }
 
   /// Faces may come before the vertices they refer to, as long as those come at all.
-  void check_forward_references() const {
+  void check_forward_references() {
+    for (Index& normal : out_.corner_normals) {
+      if (!has_forward_normals_) break;
+      if (normal == kNone || normal < out_.mesh.normals.size()) continue;
+      normal = kNone;
+      ++bad_normals_;
+    }
+    if (bad_normals_ > 0) {
+      report_.warnings.push_back(path_.string() + ": " + std::to_string(bad_normals_) +
+                                 " face corners name a normal that is not there");
+    }
     for (const Forward& f : forward_) {
-      const std::size_t count = f.kind == Reference::vertex ? out_.mesh.positions.size()
-                                : f.kind == Reference::uv   ? out_.mesh.uvs.size()
-                                                            : out_.mesh.normals.size();
+      const std::size_t count =
+          f.kind == Reference::vertex ? out_.mesh.positions.size() : out_.mesh.uvs.size();
       if (f.index < count) continue;
       scan_.fail_at(f.line, std::string(name_of(f.kind)) + " index " +
                                 std::to_string(std::size_t{f.index} + 1) + " is out of range (" +
@@ -247,6 +269,8 @@ class ObjReader {
   std::unordered_map<std::string, Index> material_by_name_;
   Index material_ = kNone;
   std::size_t material_lines_ = 0;                           // usemtl
+  std::size_t bad_normals_ = 0;                              // of face corners
+  bool has_forward_normals_ = false;
   std::size_t weights_ = 0, colours_ = 0;                    // v with such values
   std::map<std::string, std::size_t, std::less<>> ignored_;  // lines by their keyword
   decltype(ignored_)::iterator last_ignored_ = ignored_.end();
