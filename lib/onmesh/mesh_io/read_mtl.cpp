@@ -71,7 +71,7 @@ void apply(const MapOption& option, const std::vector<std::string_view>& words,
     (option.name == "-s" ? texture.scale : texture.offset) = value;
   } else if (!is_neutral(option, words)) {
     std::string text(option.name);
-    for (const std::string_view word : words) text += " " + quote(word);
+    for (const std::string_view word : words) (text += ' ') += quote(word);
     texture.ignored.push_back(text);
   } else if (option.name == "-clamp") {
     texture.wrap = means(words[0], "on") ? Wrap::clamp : Wrap::repeat;
@@ -130,9 +130,12 @@ MaterialFile read_mtl(const std::string& content, const std::string& file) {
     } else if (is_other_map(keyword)) {
       // As it was first written; no file has so many kinds unless it is no material file.
       constexpr std::size_t kMostKinds = 32;
-      const std::string text = quote(token);
-      const std::string name =
-          written.size() < kMostKinds ? text.substr(1, text.size() - 2) : std::string("other maps");
+      std::string name = "other maps";
+      if (written.size() < kMostKinds) {
+        name = quote(token);
+        name.erase(0, 1);
+        name.pop_back();
+      }
       ++result.ignored[written.try_emplace(keyword, name).first->second];
     }
   }
