@@ -130,9 +130,12 @@ MaterialFile read_mtl(const std::string& content, const std::string& file) {
     } else if (is_other_map(keyword)) {
       // As it was first written; no file has so many kinds unless it is no material file.
       constexpr std::size_t kMostKinds = 32;
-      const std::string text = quote(token);
-      const std::string name =
-          written.size() < kMostKinds ? text.substr(1, text.size() - 2) : std::string("other maps");
+      std::string name = "other maps";
+      if (written.size() < kMostKinds) {
+        name = quote(token);
+        name.erase(0, 1);
+        name.pop_back();
+      }
       ++result.ignored[written.try_emplace(keyword, name).first->second];
     }
   }
