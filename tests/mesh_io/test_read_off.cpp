@@ -76,3 +76,15 @@ TEST_CASE("a bad OFF file is refused with its line", "[read_off]") {
              Contains("no texture coordinates"));
   CHECK_THAT(fails("OFF"), Contains("number of vertices"));
 }
+
+TEST_CASE("an OFF tells what of it was read", "[read_off]") {
+  ReadReport report;
+  read_off("m",
+           "STCNOFF 3 1 0\n0 0 0 0 0 1 1 1 1 .5 .5\n1 0 0 0 0 1 1 1 1 1 .5\n"
+           "0 1 0 0 0 1 1 1 1 .5 1\n3 0 1 2\n",
+           {}, report);
+  CHECK(report.read == std::vector<std::string>{"OFF, 3 vertices, 1 faces",
+                                                "ST: texture coordinates of the vertices"});
+  CHECK(report.ignored ==
+        std::vector<std::string>{"C: colours of the vertices", "N: normals of the vertices"});
+}

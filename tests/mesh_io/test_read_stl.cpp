@@ -84,3 +84,10 @@ TEST_CASE("a bad STL file is refused", "[read_stl]") {
              Contains("facet 1 has a coordinate that is not finite"));
   CHECK_THAT(fails(binary_stl("", {})), Contains("no faces"));
 }
+
+TEST_CASE("an STL tells what of it was read", "[read_stl]") {
+  ReadReport report;
+  read_stl("m", binary_stl("", {kFacet, kFacet}), {}, report);
+  CHECK(report.read == std::vector<std::string>{"binary STL, 2 facets"});
+  CHECK(report.ignored.size() == 1);
+}

@@ -32,7 +32,7 @@ void next_filled_line(TextScan& scan) {
 
 /// What the first lines say.
 struct OffHeader {
-  bool has_uvs = false, has_normals = false;
+  bool has_uvs = false, has_colours = false, has_normals = false;
   std::size_t vertices = 0, faces = 0;
 };
 
@@ -41,7 +41,7 @@ OffHeader read_header(TextScan& scan) {
   std::string_view magic = scan.token_anywhere();
   const std::string_view first = magic;
   if (magic.starts_with("ST")) header.has_uvs = true, magic.remove_prefix(2);
-  if (magic.starts_with('C')) magic.remove_prefix(1);
+  if (magic.starts_with('C')) header.has_colours = true, magic.remove_prefix(1);
   if (magic.starts_with('N')) header.has_normals = true, magic.remove_prefix(1);
   if (magic.starts_with('4') || magic.starts_with('n'))
     scan.fail("only three-dimensional OFF files are read");
@@ -101,12 +101,21 @@ void read_faces(TextScan& scan, const OffHeader& header, PolygonMesh& out) {
   }
 }
 
+void report_header(const OffHeader& header, ReadReport& report) {
+  report.read.push_back("OFF, " + std::to_string(header.vertices) + " vertices, " +
+                        std::to_string(header.faces) + " faces");
+  if (header.has_uvs) report.read.emplace_back("ST: texture coordinates of the vertices");
+  if (header.has_colours) report.ignored.emplace_back("C: colours of the vertices");
+  if (header.has_normals) report.ignored.emplace_back("N: normals of the vertices");
+}
+
 }  // namespace
 
 TriangleMesh read_off(const std::filesystem::path& path, const std::string& content,
                       const ReadOptions& /*options*/, ReadReport& report) {
   TextScan scan(content, path.string(), Syntax::comments);
   const OffHeader header = read_header(scan);
+  report_header(header, report);
   PolygonMesh out;
   read_vertices(scan, header, out);
   read_faces(scan, header, out);

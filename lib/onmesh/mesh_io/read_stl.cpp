@@ -120,11 +120,15 @@ bool is_binary_stl(const std::string& content) {
 TriangleMesh read_stl(const std::filesystem::path& path, const std::string& content,
                       const ReadOptions& /*options*/, ReadReport& report) {
   PolygonMesh out;
-  if (is_text(content)) {
+  const bool as_text = is_text(content);
+  if (as_text) {
     read_text(content, path.string(), out);
   } else {
     read_binary(content, path.string(), out, report);
   }
+  report.read.push_back(std::string(as_text ? "text" : "binary") + " STL, " +
+                        std::to_string(out.polygon_end.size()) + " facets");
+  report.ignored.emplace_back("normals of the facets: they follow from the corners");
   return triangulate(std::move(out), path.string());
 }
 
