@@ -4,7 +4,7 @@
 namespace onmesh::fuzz {
 
 /// "dat" is no format's: the content alone tells.
-inline constexpr const char* kImageExtensions[] = {"png", "jpg", "tif", "exr", "tga", "bmp",
+inline constexpr const char* kImageExtensions[] = {"png", "jpg", "tif", "exr",  "tga", "bmp",
                                                    "ppm", "sgi", "hdr", "webp", "psd", "dat"};
 
 }  // namespace onmesh::fuzz

@@ -19,6 +19,10 @@
 #ifdef ONMESH_HAS_MESHOPT
 #include <meshoptimizer.h>
 #endif
+#ifdef ONMESH_HAS_DRACO
+#include <draco/compression/encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
+#endif
 
 namespace onmesh {
 namespace {
@@ -421,6 +425,63 @@ TEST_CASE("EXT_meshopt_compression is unpacked", "[read_gltf][meshopt]") {
   CHECK_THAT(error_of(read_gltf, "m.glb", gltf.glb()), Contains("compressed data are damaged"));
   extension["count"] = 9007199254740992;
   CHECK_THAT(error_of(read_gltf, "m.glb", gltf.glb()), Contains("would become much larger"));
+}
+#endif
+
+#ifdef ONMESH_HAS_DRACO
+TEST_CASE("KHR_draco_mesh_compression is unpacked", "[read_gltf][draco]") {
+  GltfBuilder gltf = square();
+  const TriangleMesh plain = parse(gltf.glb());
+  draco::TriangleSoupMeshBuilder builder;
+  builder.Start(2);
+  const int position =
+      builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+  const int uv = builder.AddAttribute(draco::GeometryAttribute::TEX_COORD, 2, draco::DT_FLOAT32);
+  for (Index f = 0; f < 2; ++f) {
+    std::array<std::array<float, 3>, 3> p;
+    std::array<std::array<float, 2>, 3> t;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t i = 0; i < 3; ++i) p[k][i] = float(plain.corners(f)[k][int(i)]);
+      t[k] = {float(plain.corner_uvs(f)[k].x()), float(1 - plain.corner_uvs(f)[k].y())};
+    }
+    const draco::FaceIndex face(f);
+    builder.SetAttributeValuesForFace(position, face, p[0].data(), p[1].data(), p[2].data());
+    builder.SetAttributeValuesForFace(uv, face, t[0].data(), t[1].data(), t[2].data());
+  }
+  const auto mesh = builder.Finalize();
+  for (const int method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING}) {
+    INFO(method);
+    draco::Encoder encoder;
+    encoder.SetEncodingMethod(method);
+    draco::EncoderBuffer packed;
+    REQUIRE(encoder.EncodeMeshToBuffer(*mesh, &packed).ok());
+    const int view = gltf.add_view(std::string(packed.data(), packed.size()));
+    for (json& accessor : gltf.json["accessors"]) accessor.erase("bufferView");
+    json& extension = primitive(gltf)["extensions"]["KHR_draco_mesh_compression"];
+    extension = {{"bufferView", view},
+                 {"attributes",
+                  {{"POSITION", mesh->attribute(position)->unique_id()},
+                   {"TEXCOORD_0", mesh->attribute(uv)->unique_id()}}}};
+    gltf.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    const TriangleMesh read = parse(gltf.glb());
+    REQUIRE(read.faces.size() == 2);
+    CHECK(signed_area(read) == Approx(1));
+    for (Index f = 0; f < 2; ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 p = read.corners(f)[k];
+        CHECK((read.corner_uvs(f)[k] - Vec2(p.x(), p.y())).norm() < 1e-3);
+      }
+    }
+    gltf.json["accessors"][2]["count"] = 9;
+    CHECK_THAT(error_of(read_gltf, "m.glb", gltf.glb()), Contains("another number of triangles"));
+    gltf.json["accessors"][2]["count"] = 6;
+    extension["attributes"]["POSITION"] = 77;
+    CHECK_THAT(error_of(read_gltf, "m.glb", gltf.glb()), Contains("no such attribute"));
+    extension["attributes"]["POSITION"] = 0;
+    gltf.json["bufferViews"][view]["byteLength"] = packed.size() / 2;
+    CHECK_THAT(error_of(read_gltf, "m.glb", gltf.glb()),
+               Contains("m.glb: meshes[0].primitives[0]"));
+  }
 }
 #endif
 

@@ -140,5 +140,6 @@ TEST_CASE("what is no mesh is refused by the right kind of error", "[read_mesh]"
       CHECK_THROWS_AS(read_mesh(folder.file("n" + extension, content)), InputError);
     }
   }
-  CHECK_THROWS_WITH(read_mesh(folder.file("n.glb", "glTF")), Contains("OBJ, PLY, OFF or STL"));
+  CHECK_THROWS_WITH(read_mesh(folder.file("n.glb", "glTF")), Contains("byte 4: the file ends"));
+  CHECK_THROWS_WITH(read_mesh(folder.file("n.fbx", "Kaydara")), Contains("OFF, STL or glTF"));
 }

@@ -11,6 +11,7 @@ TEST_CASE("info reports a sound mesh as such, under fixed names", "[tools][info]
   space.must("make-mesh plane --segments 3 --width 2 --height 2 -o m.obj -t m.png --size 32");
   const auto json = space.must("info m.obj --json --strict").json();
   CHECK(keys(json) == std::vector<std::string>{"advice",
+                                               "assumed",
                                                "boundary_edges",
                                                "boundary_loops",
                                                "charts",
@@ -27,6 +28,7 @@ TEST_CASE("info reports a sound mesh as such, under fixed names", "[tools][info]
                                                "faces_running_back",
                                                "faces_without_uvs",
                                                "filterable",
+                                               "ignored",
                                                "inconsistent_edges",
                                                "joined_edges",
                                                "manifold",
@@ -43,6 +45,7 @@ TEST_CASE("info reports a sound mesh as such, under fixed names", "[tools][info]
                                                "overlap_share",
                                                "peak_memory_bytes",
                                                "problems",
+                                               "read",
                                                "refusal",
                                                "refused_edges",
                                                "seams",

@@ -47,8 +47,10 @@ const char* format_name(PlyFormat format);
 std::size_t size_of(PlyType type);
 
 /// Read the header. Lines may end in any way, each in its own; keywords and types may be in
-/// capitals. \param content of the file \param file its name, for messages \throw InputError naming
-/// file and line if the header is malformed or does not end
+/// capitals.
+/// \param content of the file
+/// \param file its name, for messages
+/// \throw InputError naming file and line if the header is malformed or does not end
 PlyHeader read_ply_header(const std::string& content, const std::string& file);
 
 }  // namespace onmesh

@@ -1,6 +1,7 @@
 #include "onmesh/mesh_io/gltf/scene.h"
 
 #include <Eigen/Geometry>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -146,8 +147,12 @@ std::vector<GltfInstance> SceneWalk::run() {
     if (const auto children = node.find("children"))
       add(node_list(*children, count_), *to_world_[number]);
   }
-  for (const Skinned& s : skinned)
-    instances[s.instance].to_world = bind_matrix(file_.element("skins", s.skin));
+  std::map<Index, Matrix4d> bound;  // by skin
+  for (const Skinned& s : skinned) {
+    const auto [at, is_new] = bound.try_emplace(s.skin);
+    if (is_new) at->second = bind_matrix(file_.element("skins", s.skin));
+    instances[s.instance].to_world = at->second;
+  }
   return instances;
 }
 
