@@ -10,6 +10,7 @@
 
 #include "atlas.h"
 #include "filter_report.h"
+#include "filtered_channels.h"
 #include "flags.h"
 #include "gltf_results.h"
 #include "inputs.h"
@@ -17,7 +18,6 @@
 #include "messages.h"
 #include "onmesh/base/atomic_file.h"
 #include "onmesh/base/process_memory.h"
-#include "onmesh/image/channels.h"
 #include "onmesh/image/image_io.h"
 #include "onmesh/mesh_io/write_gltf.h"
 #include "output_names.h"
@@ -177,14 +177,13 @@ struct FilterInputs {
   TriangleMesh mesh;
   TextureSet set;
   std::vector<Image> images;  ///< per texture of the set
-  std::vector<Image> parts;   ///< of the images the channels that are filtered; empty = all
-  std::vector<std::vector<int>> channels;  ///< per texture the parts' channels
+  FilteredChannels filtered;  ///< what of them is filtered
   Wrap wrap = Wrap::repeat;
   std::vector<StageTime> stages;
   std::vector<std::string> warnings;
 
   SurfaceTextures textures() const {
-    return surface_textures(set, parts.empty() ? images : parts, wrap);
+    return surface_textures(set, filtered.parts.empty() ? images : filtered.parts, wrap);
   }
 };
 
@@ -221,24 +220,6 @@ std::vector<int> tiles_of(const Arguments& arguments) {
   return tiles;
 }
 
-/// Leave the channels of other slots out of what is filtered.
-void choose_channels(TextureSlot slot, FilterInputs& inputs) {
-  if (channels_of_slot(slot, 3).empty()) return;
-  for (const Image& image : inputs.images) {
-    inputs.channels.push_back(channels_of_slot(slot, image.channels));
-    inputs.parts.push_back(take_channels(image, inputs.channels.back()));
-  }
-}
-
-/// The results with the channels that were left out, as they were.
-void put_together(const FilterInputs& inputs, std::vector<Image>& results) {
-  for (std::size_t i = 0; i < inputs.parts.size(); ++i) {
-    Image whole = inputs.images[i];
-    put_channels(results[i], inputs.channels[i], whole);
-    results[i] = std::move(whole);
-  }
-}
-
 FilterInputs read_inputs(const Arguments& arguments, Stopwatch& watch) {
   FilterInputs inputs;
   inputs.mesh_path = arguments.argument("mesh");
@@ -268,7 +249,7 @@ FilterInputs read_inputs(const Arguments& arguments, Stopwatch& watch) {
     inputs.images.push_back(read_texture(texture, inputs.warnings));
     check_interrupted();
   }
-  choose_channels(slot, inputs);
+  inputs.filtered = choose_channels(slot, inputs.images);
   inputs.stages.push_back(stage("read texture", watch));
   return inputs;
 }
@@ -347,19 +328,34 @@ void write_results(const std::string& output, const OutputNames& outputs,
   write_images(files, {}, &inputs.warnings);
 }
 
+/// Whether any texel is on the surface. UVs may all be spots in a palette.
+bool has_texels(const FilterInputs& inputs) {
+  for (Index f = 0; f < inputs.mesh.faces.size(); ++f) {
+    if (inputs.set.tile_of_face[f] != kNone && inputs.mesh.has_uvs(f) &&
+        inputs.mesh.uv_area(f) != 0)
+      return true;
+  }
+  return false;
+}
+
 void filter_and_write(const Arguments& arguments, const FilterOptions& options,
                       FilterInputs& inputs, const OutputNames& outputs, json out,
                       Stopwatch& watch) {
   const bool quiet = arguments.flag("quiet");
   FilterReport report;
   std::vector<Image> results;
-  {
+  if (is_gltf_name(arguments.text("output")) && !has_texels(inputs)) {
+    // The file with nothing replaced is what was asked for.
+    inputs.warnings.push_back(inputs.mesh_path +
+                              ": the UVs of no face have any area: all images stay as they are");
+    results = inputs.images;
+  } else {
     ProgressBar bar(quiet);
     results = filtering(inputs, [&] {
       return filter(inputs.mesh, inputs.textures(), options, &report, bar.callback());
     });
+    put_together(inputs.filtered, inputs.images, results);
   }
-  put_together(inputs, results);
   watch.lap();
   check_interrupted();
   add_warnings(report.warnings, inputs.warnings);

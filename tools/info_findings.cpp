@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "atlas.h"
+#include "filtered_channels.h"
 #include "flags.h"
 #include "format.h"
 #include "interruption.h"
@@ -101,14 +102,20 @@ void examine_textures(const InputMesh& input, const Arguments& arguments, Findin
       request.confined_to = confining_folder(arguments);
       return choose_textures(input.cleaned, request);
     };
-    const Atlas atlas = is_given ? read_atlas(arguments, input.cleaned)
-                                 : read_atlas(explained_by(input.read.warnings, choose),
-                                              input.cleaned, wrap_of(arguments));
+    Atlas atlas = is_given ? read_atlas(arguments, input.cleaned)
+                           : read_atlas(explained_by(input.read.warnings, choose), input.cleaned,
+                                        wrap_of(arguments));
     findings.missing = atlas.set.warnings;
     findings.warnings = atlas.warnings;
     check_interrupted();
+    std::vector<int> channels;
+    for (const Image& image : atlas.images) channels.push_back(image.channels);
+    FilteredChannels filtered = choose_channels(slot_of(arguments), atlas.images);
+    if (!filtered.parts.empty()) atlas.images = std::move(filtered.parts);
     check_channels(atlas, findings);
     if (findings.refusal.empty()) findings.textures = measure(input, atlas, findings);
+    for (std::size_t i = 0; i < std::min(channels.size(), findings.textures.size()); ++i)
+      findings.textures[i].channels = channels[i];
   } catch (const UsageError& error) {
     if (is_given) throw;
     findings.refusal = error.what();

@@ -62,12 +62,6 @@ TextureSlot slot_of(const Arguments& arguments) {
                                         {"normal", TextureSlot::normal}});
 }
 
-std::vector<int> channels_of_slot(TextureSlot slot, int channels) {
-  if (slot == TextureSlot::occlusion) return {0};
-  if (slot != TextureSlot::metallic_roughness) return {};
-  return channels < 3 ? std::vector<int>{0} : std::vector<int>{1, 2};
-}
-
 std::optional<std::uint64_t> uv_set_of(const Arguments& arguments) {
   require_gltf(arguments, "uv-set");
   if (!arguments.has("uv-set")) return std::nullopt;

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <vector>
 
 #include "arguments.h"
 #include "onmesh/distance/backend.h"
@@ -31,10 +30,6 @@ DistanceMethod distance_of(const Arguments& arguments);
 /// The value of --slot.
 /// \throw UsageError if it was given for a mesh that is no glTF
 TextureSlot slot_of(const Arguments& arguments);
-/// The channels that a slot's textures have for it: occlusion R, metallicRoughness G and B (grey if
-/// there is no more). Empty = all.
-/// \param channels that the texture has
-std::vector<int> channels_of_slot(TextureSlot slot, int channels);
 /// The number that --uv-set gives, nothing for its default.
 /// \throw UsageError if it was given for a mesh that is no glTF
 std::optional<std::uint64_t> uv_set_of(const Arguments& arguments);

@@ -181,6 +181,37 @@ TEST_CASE("slots filter the channels that are theirs", "[tools][gltf]") {
   check_refused(space, "filter in.glb -o x.glb --slot paint", 2, "--slot: 'paint' is not one of");
 }
 
+TEST_CASE("a texture without alpha beside one with it is opaque", "[tools][gltf]") {
+  const Workspace space;
+  GltfBuilder gltf = square(space);
+  const int b = gltf.add_square(gltf.add_material(png(space, 4, 2), "b"));
+  gltf.add_node({{"mesh", b}, {"translation", {1, 0, 0}}});
+  space.file("in.glb", gltf.glb());
+  CHECK(space.must("info in.glb --json").json()["filterable"] == true);
+  space.must("filter in.glb -o out.glb --kind gaussian --sigma-spatial 2tx --quiet");
+  const Image opaque = image_of(space / "out.glb", 0), other = image_of(space / "out.glb", 1);
+  CHECK(opaque.channels == 3);
+  CHECK(other.channels == 4);
+  CHECK(opaque.pixels != image_of(space / "in.glb", 0).pixels);
+  // Colour flows over the edge that both share: it is not the same as each alone.
+  space.must(
+      "filter in.glb -o apart.glb --stop-at material --kind gaussian --sigma-spatial 2tx "
+      "--quiet");
+  CHECK(opaque.pixels != image_of(space / "apart.glb", 0).pixels);
+}
+
+TEST_CASE("a GLB whose UVs are spots in a palette stays as it is", "[tools][gltf]") {
+  const Workspace space;
+  GltfBuilder gltf = square(space);
+  gltf.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
+      gltf.add_accessor<float>({.5, .5, .5, .5, .5, .5, .5, .5}, "VEC2");
+  space.file("in.glb", gltf.glb());
+  const Run run = space.must("filter in.glb -o out.glb");
+  CHECK_THAT(run.err, Contains("all images stay as they are"));
+  CHECK(glb_binary(read_file(space / "out.glb")) == gltf.binary());
+  check_refused(space, "filter in.glb -o out.png", 3, "nothing to filter");
+}
+
 TEST_CASE("glTF outputs are refused where they make no sense", "[tools][gltf]") {
   const Workspace space;
   space.file("in.glb", square(space).glb());

@@ -25,7 +25,7 @@ void put_channels(const Image& part, const std::vector<int>& channels, Image& im
   for (std::size_t t = 0; t < texels; ++t) {
     for (std::size_t k = 0; k < channels.size(); ++k) {
       image.pixels[t * std::size_t(image.channels) + std::size_t(channels[k])] =
-          part.pixels[t * channels.size() + k];
+          part.pixels[t * std::size_t(part.channels) + k];
     }
   }
 }

@@ -13,7 +13,8 @@ namespace onmesh {
 Image take_channels(const Image& image, const std::vector<int>& channels);
 
 /// Put the values of such an image back; the other channels stay as they are.
-/// \pre part is as large as image and has as many channels as are named
+/// \param channels of the image, for the first channels of the part
+/// \pre part is as large as image and has at least as many channels as are named
 void put_channels(const Image& part, const std::vector<int>& channels, Image& image);
 
 }  // namespace onmesh
