@@ -93,7 +93,8 @@ Command filter_command() {
   add("seed", text("1"), "poisson: of the random points");
   add_wrap_option(command.options);
   add("overlap", text("average"), "texels used by several faces: average, first or error");
-  add("gutter", text("2"), "rings of texels to fill around charts");
+  add("gutter", text("2"),
+      "rings of texels to fill around charts; 0: only texels whose centre is on a chart change");
   add("threads", text("0"), "0 = all processors");
   add("max-memory", text(),
       "refuse what would take more, such as 8G (default: what there is and what is left)");

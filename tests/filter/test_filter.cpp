@@ -313,6 +313,24 @@ TEST_CASE("patches without a usable texel keep their texels", "[filter]") {
   }
 }
 
+TEST_CASE("without a gutter only texels whose centre is on a chart change", "[filter]") {
+  const TriangleMesh mesh = make_blob(2, 1);
+  const Image texture = make_texture(128, 128, Pattern::checker, 0.2, 1);
+  FilterOptions options = options_for(FilterKind::gaussian, 2);
+  options.gutter = 0;
+  const Image result = filter(mesh, texture, options);
+  const TexelMap map = make_texel_map(weld(mesh), 128, 128);
+  std::size_t changed = 0, touched = 0;
+  for (Index t = 0; t < 128 * 128; ++t) {
+    const bool is_same = std::equal(result.texel(t), result.texel(t) + 3, texture.texel(t));
+    changed += is_same ? 0 : 1;
+    touched += map.coverage[t] == Coverage::touched ? 1 : 0;
+    if (map.coverage[t] != Coverage::covered) REQUIRE(is_same);
+  }
+  CHECK(changed > 1000);
+  CHECK(touched > 100);
+}
+
 TEST_CASE("texels without a sample within the radius keep their values", "[filter]") {
   const TriangleMesh mesh = make_plane(4, 4);
   const Image texture = make_texture(128, 128, Pattern::checker, 0.2, 1);

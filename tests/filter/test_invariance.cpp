@@ -99,7 +99,7 @@ void check_changes(const TriangleMesh& mesh, double sigma, const std::vector<Eva
     options.distance = c.distance;
     options.sigma_spatial = {sigma, Length::Unit::texel};
     options.sigma_range = 0.2;
-    options.gutter = 0;  // but for texels that a chart touches
+    options.gutter = 0;
     const Image expected = filter(mesh, texture, options);
     for (const Change& change : kChanges) {
       TriangleMesh given = mesh;

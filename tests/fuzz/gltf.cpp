@@ -50,7 +50,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   ReadReport report;
   fuzz::succeeds([&] {
     try {
-      fuzz::require_sound(read_gltf(std::string(kPath), content, options, report));
+      const TriangleMesh mesh = read_gltf(std::string(kPath), content, options, report);
+      fuzz::require_sound(mesh);
+      for (const Material& material : mesh.materials) {
+        fuzz::require_line(material.name);
+        if (!material.texture.empty()) fuzz::require_line(material.texture);
+      }
     } catch (const InputError& error) {
       fuzz::require(std::string(error.what()).starts_with(kPath),
                     "an error does not name the file");

@@ -260,6 +260,15 @@ TEST_CASE("the slot chooses textures, samplers their wrap modes, texCoord the UV
   CHECK_FALSE(parse(gltf.glb(), options).has_uvs(0));
 }
 
+TEST_CASE("names in a glTF are told in one line", "[read_gltf]") {
+  GltfBuilder gltf = square();
+  gltf.json["materials"][0]["name"] = "a\nb";
+  gltf.json["images"][0]["name"] = "c\rd.png";
+  const TriangleMesh mesh = parse(gltf.glb());
+  CHECK(mesh.materials[0].name == "a?b");
+  CHECK(mesh.materials[0].texture == "m.glb/c_d.png");
+}
+
 TEST_CASE("images inside have names of their own", "[read_gltf]") {
   GltfBuilder gltf = square();
   json& images = gltf.json["images"];
@@ -343,6 +352,8 @@ TEST_CASE("malformed glTF is refused in one line with the place", "[read_gltf]")
          j["nodes"][0]["rotation"] = {0, 0, 0, 0};
        }},
       {"m.glb: nodes[0].matrix: should have 16", [](json& j) { j["nodes"][0]["matrix"] = {1}; }},
+      {"m.glb: images[0].uri: is no name of a file",
+       [](json& j) { j["images"][0] = {{"uri", "a%0Ab.png"}}; }},
       {"m.glb: meshes: is no array", [](json& j) { j["meshes"] = 5; }},
   };
   for (const auto& [message, change] : changes) {

@@ -31,6 +31,15 @@ inline std::string one_line(std::string text) {
   return text;
 }
 
+/// The text in one line: characters that control a terminal or a file become question marks.
+inline std::string one_line_text(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  return result;
+}
+
 /// ASCII letters in lower case, all else as it is.
 inline std::string lower_case(std::string_view text) {
   std::string result(text);

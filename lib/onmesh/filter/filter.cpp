@@ -212,8 +212,10 @@ std::vector<Image> run_filter(const TriangleMesh& mesh, const SurfaceTextures& t
     stages.end();
 
     stages.begin("gutter");
-    report.gutter =
-        fill_gutter(setup.mesh, setup.map, options.gutter, values, setup.lengths.bridge).size();
+    if (options.gutter > 0) {
+      report.gutter =
+          fill_gutter(setup.mesh, setup.map, options.gutter, values, setup.lengths.bridge).size();
+    }
     stages.end();
     return images;
   });

@@ -68,7 +68,9 @@ struct FilterOptions {
   /// One texture: how UVs outside [0,1] are read where materials do not say (Material::wrap).
   Wrap wrap = Wrap::repeat;
   Overlap overlap = Overlap::average;  ///< texels that several places of the surface claim
-  int gutter = 2;                      ///< rings of texels filled around the charts, [0, 32768]
+  /// Rings of texels filled around the charts, [0, 32768]; 0 = nothing is filled, not even texels
+  /// that a chart merely touches.
+  int gutter = 2;
   /// One texture, per face of the mesh as given: whether it carries it. Empty = all faces with UVs.
   std::vector<bool> faces;
   /// Colour does not flow from faces of one material to those of another.

@@ -10,6 +10,7 @@
 #include "onmesh/base/error.h"
 #include "onmesh/base/file_io.h"
 #include "onmesh/base/process_memory.h"
+#include "onmesh/base/text.h"
 #include "onmesh/base/text_scan.h"
 #include "onmesh/mesh_io/gltf/compression.h"
 #include "onmesh/mesh_io/gltf/uri.h"
@@ -161,7 +162,7 @@ void GltfFile::check_extensions() {
 
 fs::path GltfFile::file_of(const JsonPlace& uri) {
   const std::string decoded = percent_decoded(uri.text());
-  if (decoded.empty() || decoded.find('\0') != std::string::npos) uri.fail("is no name of a file");
+  if (decoded.empty() || decoded != one_line_text(decoded)) uri.fail("is no name of a file");
   return files_.path_of({decoded}, path_);
 }
 

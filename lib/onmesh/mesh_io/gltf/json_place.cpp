@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "onmesh/base/error.h"
+#include "onmesh/base/text.h"
 
 namespace onmesh {
 
@@ -91,7 +92,7 @@ bool JsonPlace::flag(const char* key) const {
 }
 
 void JsonPlace::fail(const std::string& what) const {
-  throw InputError(*file_ + ": " + (path_.empty() ? "JSON" : path_) + ": " + what);
+  throw InputError(*file_ + ": " + (path_.empty() ? "JSON" : path_) + ": " + one_line_text(what));
 }
 
 }  // namespace onmesh

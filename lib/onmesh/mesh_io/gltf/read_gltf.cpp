@@ -165,7 +165,7 @@ void GltfReader::read_materials() {
   const std::size_t count = file_.root().size_of("materials");
   for (Index i = 0; i < count; ++i) {
     const JsonPlace place = file_.element("materials", i);
-    Material material{place.text("name"), {}};
+    Material material{one_line_text(place.text("name")), {}};
     if (material.name.empty()) material.name = "material" + std::to_string(i);
     SlotUvs uvs;
     if (const auto info = slot_texture(place)) read_slot(*info, material, uvs);
