@@ -228,6 +228,10 @@ void GltfReader::read_plain(const JsonPlace& primitive, std::uint64_t mode, Part
   const std::size_t count = accessor ? indices.size() : vertices;
   if (mode == 4 && count % 3 != 0)
     primitive.fail("has " + std::to_string(count) + " corners, which is no multiple of three");
+  if (mode == 4 && accessor) {
+    part.corners = std::move(indices);
+    return;
+  }
   part.corners.reserve(mode == 4 ? count : 3 * count);
   for (const auto& triangle : corners_of_triangles(mode, count)) {
     std::array<Index, 3> face;
@@ -308,6 +312,14 @@ void GltfReader::append(Part& part, const Eigen::Matrix4d& to_world, const JsonP
   if (first + vertices >= kNone || out_.uvs.size() + part.uvs.size() >= kNone ||
       out_.faces.size() + faces >= kNone)
     mesh.fail("there are more vertices or faces than 32 bits can count");
+  // A large mesh is one part as a rule; where there are many, they grow as vectors do.
+  if (first == 0) {
+    out_.positions.reserve(vertices);
+    out_.uvs.reserve(part.uvs.size());
+    out_.faces.reserve(faces);
+    out_.face_uvs.reserve(faces);
+    out_.face_materials.reserve(faces);
+  }
   const bool is_moved = to_world != Eigen::Matrix4d::Identity();
   for (std::size_t i = 0; i < vertices; ++i) {
     Vec3 p(part.positions[3 * i], part.positions[3 * i + 1], part.positions[3 * i + 2]);
