@@ -297,5 +297,6 @@ TEST_CASE("a light map on the second UV set is that of the OBJ", "[tools][gltf][
   space.must("filter '" + (folder / "scene.glb").string() + "' --uv-set 1" + rest + "glb.exr");
   space.must("filter '" + (folder / "scene_lightmap.obj").string() + "'" + rest + "obj.exr");
   const json compared = space.must("compare glb.exr obj.exr --json").json();
-  CHECK(compared["max"].get<double>() < 2e-3);
+  // Coordinates with six digits beside floats: nodes differ, and so do results, as by any rounding.
+  CHECK(compared["psnr"].get<double>() > 60);
 }

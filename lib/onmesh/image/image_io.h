@@ -82,8 +82,8 @@ struct ImageFile {
 void write_images(const std::vector<ImageFile>& files, const ImageWriteOptions& options = {},
                   std::vector<std::string>* warnings = nullptr);
 
-/// Whether write_image() would write the same pixels of both, in the depth of the file that `before`
-/// comes from.
+/// Whether write_image() would write the same pixels of both, in the depth of the file that
+/// `before` comes from.
 bool has_same_pixels(const Image& before, const Image& after);
 
 /// Throw now if write_image() could not write `image` to `path` later.
