@@ -353,7 +353,9 @@ TEST_CASE("malformed glTF is refused in one line with the place", "[read_gltf]")
        }},
       {"m.glb: nodes[0].matrix: should have 16", [](json& j) { j["nodes"][0]["matrix"] = {1}; }},
       {"m.glb: images[0].uri: is no name of a file",
-       [](json& j) { j["images"][0] = {{"uri", "a%0Ab.png"}}; }},
+       [](json& j) {
+         j["images"][0] = {{"uri", "a%0Ab.png"}};
+       }},
       {"m.glb: meshes: is no array", [](json& j) { j["meshes"] = 5; }},
   };
   for (const auto& [message, change] : changes) {

@@ -268,8 +268,8 @@ class ObjReader {
   ObjMaterialNames names_;
   std::unordered_map<std::string, Index> material_by_name_;
   Index material_ = kNone;
-  std::size_t material_lines_ = 0;                           // usemtl
-  std::size_t bad_normals_ = 0;                              // of face corners
+  std::size_t material_lines_ = 0;  // usemtl
+  std::size_t bad_normals_ = 0;     // of face corners
   bool has_forward_normals_ = false;
   std::size_t weights_ = 0, colours_ = 0;                    // v with such values
   std::map<std::string, std::size_t, std::less<>> ignored_;  // lines by their keyword
