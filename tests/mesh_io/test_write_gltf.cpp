@@ -28,17 +28,6 @@ GltfBuilder two_squares() {
   return gltf;
 }
 
-/// The JSON without what may change with the images.
-json without_places(json j) {
-  j.erase("images");
-  j.erase("buffers");
-  for (json& view : j["bufferViews"]) {
-    view.erase("byteOffset");
-    view.erase("byteLength");
-  }
-  return j;
-}
-
 /// The bytes of every buffer view of a GLB.
 std::vector<std::string> views_of(const std::string& glb) {
   std::vector<std::string> views;

@@ -111,6 +111,16 @@ nlohmann::json gltf_json(const std::string& content) {
   return nlohmann::json::parse(content.substr(20, word_at(content, 12)));
 }
 
+nlohmann::json without_places(nlohmann::json document) {
+  document.erase("images");
+  document.erase("buffers");
+  for (nlohmann::json& view : document["bufferViews"]) {
+    view.erase("byteOffset");
+    view.erase("byteLength");
+  }
+  return document;
+}
+
 std::string glb_binary(const std::string& content) {
   const std::size_t at = 20 + word_at(content, 12);
   return content.substr(at + 8, word_at(content, at));

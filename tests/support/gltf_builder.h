@@ -67,6 +67,9 @@ std::string glb_of(const std::string& json, const std::string& binary);
 /// The JSON of a GLB or glTF file.
 nlohmann::json gltf_json(const std::string& content);
 
+/// The JSON without what may change when images are replaced.
+nlohmann::json without_places(nlohmann::json document);
+
 /// The binary chunk of a GLB.
 std::string glb_binary(const std::string& content);
 

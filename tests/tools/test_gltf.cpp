@@ -45,17 +45,6 @@ Image image_of(const fs::path& path, std::size_t material = 0) {
   return read_image_content(*mesh.materials[material].content, mesh.materials[material].texture);
 }
 
-/// The JSON without images, and where the bytes lie.
-json without_places(json j) {
-  j.erase("images");
-  j.erase("buffers");
-  for (json& view : j["bufferViews"]) {
-    view.erase("byteOffset");
-    view.erase("byteLength");
-  }
-  return j;
-}
-
 void check_same_but_images(const fs::path& a, const fs::path& b) {
   CHECK(without_places(gltf_json(read_file(a))) == without_places(gltf_json(read_file(b))));
   const TriangleMesh one = read_mesh(a), other = read_mesh(b);
