@@ -83,6 +83,31 @@ TEST_CASE("pieces lay node faces out true to length", "[overlay]") {
   }
 }
 
+TEST_CASE("rounding does not add up along a thin face", "[overlay]") {
+  // Between two sheets, as at the edge of a panel: 250 nodes long and half a node wide.
+  const TriangleMesh mesh =
+      bare_mesh({{0, 0, 0}, {1, 0, 0}, {0.5, 0.002, 0}, {0.5, -0.3, -0.2}, {0.5, 0.4, -0.3}},
+                {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}, {2, 1, 4}});
+  RefineOptions options;
+  options.spacing = options.finest = 0.004;
+  const NodeSurface surface = refine_manifold(mesh, options);
+  const Overlay& overlay = surface.overlay;
+  for (Index k = overlay.face_offsets[0]; k < overlay.face_offsets[1]; ++k) {
+    const OverlayPiece& piece = overlay.pieces[k];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const SurfacePoint& node = surface.nodes.nodes[surface.nodes.faces[piece.node_face][c]];
+      if (node.face != 0) continue;
+      const Vec3 laid_out = piece.to_node.inverse().col(Eigen::Index(c));
+      REQUIRE((laid_out - node.barycentric).norm() < 1e-7);
+    }
+  }
+  for (int i = 1; i < 1000; ++i) {
+    const double along = i / 1000.0;
+    const Vec3 point(0.7 * along, 0.7 * (1 - along), 0.3);
+    REQUIRE((overlay.pieces[overlay.piece_at({0, point})].to_node * point).minCoeff() > -1e-9);
+  }
+}
+
 TEST_CASE("a scanned mesh maps into its refinement and back", "[overlay]") {
   const std::filesystem::path file = shared_data() / "spot/cow.obj";
   if (!std::filesystem::exists(file)) {

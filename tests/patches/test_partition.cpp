@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "onmesh/patches/grow_patch.h"
 #include "support/mesh_parts.h"
 #include "support/pages.h"
 #include "support/simple_shapes.h"
@@ -75,6 +76,33 @@ TEST_CASE("components and heavy faces stay groups of their own", "[partition]") 
   CHECK(partition_faces(mesh, std::vector<double>(mesh.faces.size(), 50), 10).size() ==
         mesh.faces.size());
   CHECK(partition_faces(mesh, std::vector<double>(mesh.faces.size(), 0), 10).empty());
+}
+
+TEST_CASE("a core is split where it is short, whatever the order of its faces", "[partition]") {
+  const int n = 40;
+  TriangleMesh sheet = plane(2 * n, n, 2, 1);
+  // Far and near faces by turns: halves of the list would each be all over the place.
+  std::vector<std::array<Index, 3>> mixed;
+  for (std::size_t i = 0, half = sheet.faces.size() / 2; i < half; ++i) {
+    mixed.insert(mixed.end(), {sheet.faces[i], sheet.faces[half + i]});
+  }
+  sheet.faces = mixed;
+  const NodeMesh mesh = make_node_mesh(sheet);
+  std::vector<Index> all(mesh.faces.size());
+  std::iota(all.begin(), all.end(), Index(0));
+  const Patch patch = grow_patch(mesh, all, 0.1);
+  const auto parts = split_core(patch);
+  REQUIRE(parts.size() == 2);
+  std::vector<int> times(all.size(), 0);
+  for (const auto& part : parts) {
+    for (const Index f : part) ++times[f];
+    CHECK(is_connected(mesh, part));
+    CHECK(std::is_sorted(part.begin(), part.end()));
+    // A compact half of the nodes, and those along the cut.
+    const Index nodes = grow_patch(mesh, part, 0).core_nodes;
+    CHECK(nodes < mesh.nodes.size() / 2 + 2 * n);
+  }
+  CHECK(times == std::vector<int>(all.size(), 1));
 }
 
 }  // namespace onmesh

@@ -119,7 +119,7 @@ TEST_CASE("a material file beside the OBJ stands in for one in a lost folder",
   CHECK(json["texture"]["path"] == "cesium.png");
 }
 
-TEST_CASE("--confine keeps every command within the mesh's folder", "[tools][materials]") {
+TEST_CASE("confined, every command stays within the mesh's folder", "[tools][materials]") {
   const Workspace space;
   space.must("make-mesh plane -o unused.obj -t t.png --size 16");
   std::filesystem::create_directory(space / "model");

@@ -19,8 +19,11 @@
 namespace onmesh {
 namespace {
 
-/// A patch whose table would have more entries is halved: 64 MB a thread at most.
+/// A patch whose table would have more entries is split: 64 MB a thread at most.
 constexpr double kTableEntries = 16e6;
+
+/// Core faces of a patch, at most: more rarely have a table that is small enough.
+constexpr double kCoreFaces = 6000;
 
 double thread_seconds() {
   timespec now{};
@@ -97,10 +100,9 @@ class PatchFilter {
     const Patch patch = grow(core, reach);
     const double entries = double(patch.core_nodes) * double(patch.nodes.size());
     if (entries > kTableEntries && core.size() > 1) {
-      const auto middle = core.begin() + std::ptrdiff_t(core.size() / 2);
+      const std::vector<std::vector<Index>> parts = split_core(patch);
       counts.table_cpu_seconds += thread_seconds() - start;
-      run({core.begin(), middle}, counts);
-      run({middle, core.end()}, counts);
+      for (const std::vector<Index>& part : parts) run(part, counts);
       return;
     }
     work_.backend->fill(patch, reach, table_);
@@ -194,9 +196,14 @@ PatchCounts filter_patches(const PatchWork& work, const StoreResults& store,
   const WorkSize& size = targets.size;
   const bool by_nodes = choose_nodes(work, size);
   const double sigma = work.kernel.sigma_spatial;
-  const std::vector<std::vector<Index>> cores = partition_faces(
-      *work.nodes, targets.of_face,
-      target_weight(size.targets, by_nodes, sigma * sigma * size.targets / size.area));
+  const double weight_of_core =
+      target_weight(size.targets, by_nodes, sigma * sigma * size.targets / size.area);
+  std::vector<double> weights = targets.of_face;
+  for (double& weight : weights) {
+    if (weight > 0) weight = std::max(weight, weight_of_core / kCoreFaces);
+  }
+  const std::vector<std::vector<Index>> cores =
+      partition_faces(*work.nodes, weights, weight_of_core);
 
   const std::vector<double> extents = extents_for(work);
   tbb::enumerable_thread_specific<PatchFilter> filters(

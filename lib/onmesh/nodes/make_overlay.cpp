@@ -14,6 +14,9 @@
 namespace onmesh {
 namespace {
 
+// A laid-out edge and its signpost agree to this many radians if both are of the same placement.
+constexpr double kSameWay = 0.1;
+
 using Corners = std::array<Vec2, 3>;
 
 struct Circle {
@@ -101,29 +104,72 @@ class Layouter {
     Placed p{HalfEdges::face(best), {}, kNone};
     const Index k = best % 3;
     p.at[k] = input_[0];
-    p.at[(k + 1) % 3] = anchored(e.tip(best), tip, e.length[best]);
-    p.at[(k + 2) % 3] =
-        anchored(e.tail[HalfEdges::prev(best)], e.opposite(best, p.at[k], p.at[(k + 1) % 3]),
-                 e.length[HalfEdges::prev(best)]);
+    p.at[(k + 1) % 3] = tip;
+    p.at[(k + 2) % 3] = e.opposite(best, p.at[k], tip);
     place(p);
   }
 
-  // A laid-out node that lies in this input face is put where it is known to be, so that rounding
-  // does not add up from face to face. A node laid out inside the input face is the one that lies
-  // there: both faces are convex, so the way to it leads through neither's outside.
-  Vec2 anchored(Index node, const Vec2& laid_out, double scale) const {
+  // Where a laid-out node is known to be, if it lies in this input face. A node laid out inside the
+  // input face is the one that lies there: both faces are convex, so the way to it leads through
+  // neither's outside.
+  std::optional<Vec2> known_place(Index node, const Vec2& laid_out, double scale) const {
     std::optional<Vec2> known;
     if (node < t_.input().vertex_count()) {
-      for (Index k = 0; k < 3; ++k) {
-        if (t_.input().edges().tail[3 * face_ + k] != node) continue;
-        if (!known || (input_[k] - laid_out).norm() < (*known - laid_out).norm()) known = input_[k];
-      }
+      if (const Index k = corner_near(node, laid_out); k != kNone) known = input_[k];
     } else if (const SurfacePoint& p = t_.location(node); p.face == face_) {
       known = interpolate(input_, p.barycentric);
     }
-    if (!known) return laid_out;
+    if (!known) return {};
     const double off = (*known - laid_out).norm();
-    return off < 1e-6 * scale || off < std::min(depth(laid_out), 0.1 * scale) ? *known : laid_out;
+    if (off < 1e-6 * scale || off < std::min(depth(laid_out), 0.1 * scale)) return known;
+    return {};
+  }
+
+  // The input face's corner with this vertex that is nearest; kNone if it has none.
+  Index corner_near(Index vertex, const Vec2& x) const {
+    Index nearest = kNone;
+    for (Index k = 0; k < 3; ++k) {
+      if (t_.input().edges().tail[3 * face_ + k] != vertex) continue;
+      if (nearest == kNone || (input_[k] - x).norm() < (input_[nearest] - x).norm()) nearest = k;
+    }
+    return nearest;
+  }
+
+  // What a half-edge must be turned by to lie as the signpost at its tail says, which lies in this
+  // input face; in (-pi, pi].
+  double off_signpost(Index h, const Vec2& place, const Vec2& laid_out) const {
+    const Index node = t_.edges().tail[h];
+    if (node >= t_.input().vertex_count()) {
+      const double angle = t_.direction(h);
+      const Vec2 way(std::cos(angle), std::sin(angle));
+      return std::atan2(cross(laid_out, way), laid_out.dot(way));
+    }
+    // Both from the side that starts at the corner. A face that overlaps the input face lies less
+    // than half a turn to either side of it; the signpost is known but for whole turns of the cone.
+    const Index k = corner_near(node, place);
+    const Vec2 side = input_[(k + 1) % 3] - input_[k];
+    const double laid = std::atan2(cross(side, laid_out), side.dot(laid_out));
+    const double off = t_.direction(h) - t_.input().direction(3 * face_ + k) - laid;
+    if (t_.on_boundary(node)) return off;
+    return off - t_.total_angle(node) * std::round(off / t_.total_angle(node));
+  }
+
+  // Lay a face out again, from a corner whose place is known and by the signpost there: rounding
+  // must not add up from face to face, for along a thin input face it doubles with every node.
+  void settle(Placed& p) const {
+    const HalfEdges& e = t_.edges();
+    for (Index k = 0; k < 3; ++k) {
+      const Index h = 3 * p.face + k;
+      const std::optional<Vec2> known = known_place(e.tail[h], p.at[k], e.length[h]);
+      if (!known) continue;
+      const Vec2 along = p.at[(k + 1) % 3] - p.at[k];
+      const double turn = off_signpost(h, *known, along);
+      if (std::abs(turn) > kSameWay) continue;
+      p.at[k] = *known;
+      p.at[(k + 1) % 3] = *known + e.length[h] * (Eigen::Rotation2Dd(turn) * along).normalized();
+      p.at[(k + 2) % 3] = e.opposite(h, p.at[k], p.at[(k + 1) % 3]);
+      return;
+    }
   }
 
   // How far inside the input face a point lies; negative outside.
@@ -177,8 +223,8 @@ class Layouter {
     const Index j = twin % 3;
     p.at[j] = b;
     p.at[(j + 1) % 3] = a;
-    p.at[(j + 2) % 3] =
-        anchored(e.tail[HalfEdges::prev(twin)], e.opposite(twin, b, a), e.length[twin]);
+    p.at[(j + 2) % 3] = e.opposite(twin, b, a);
+    settle(p);
     place(p);
   }
 

@@ -231,4 +231,18 @@ std::vector<std::vector<Index>> partition_faces(const NodeMesh& mesh,
   return groups;
 }
 
+std::vector<std::vector<Index>> split_core(const Patch& patch) {
+  NodeMesh core;
+  core.nodes.resize(patch.core_nodes);
+  core.faces.assign(patch.corners.begin(), patch.corners.begin() + patch.core_faces);
+  core.build_incidence();
+  std::vector<std::vector<Index>> groups = partition_faces(
+      core, std::vector<double>(patch.core_faces, 1), 0.5 * double(patch.core_faces));
+  for (std::vector<Index>& group : groups) {
+    for (Index& face : group) face = patch.faces[face];
+    std::sort(group.begin(), group.end());
+  }
+  return groups;
+}
+
 }  // namespace onmesh

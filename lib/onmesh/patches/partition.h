@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "onmesh/nodes/node_mesh.h"
+#include "onmesh/patches/patch.h"
 
 namespace onmesh {
 
@@ -24,5 +24,11 @@ namespace onmesh {
 std::vector<std::vector<Index>> partition_faces(const NodeMesh& mesh,
                                                 const std::vector<double>& weights,
                                                 double target_weight);
+
+/// The core of a patch that is too large in two compact groups or a few more, of about half as many
+/// faces each. Deterministic.
+/// \pre the core has two faces or more
+/// \return groups of global faces, ascending within a group
+std::vector<std::vector<Index>> split_core(const Patch& patch);
 
 }  // namespace onmesh
