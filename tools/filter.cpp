@@ -226,6 +226,9 @@ FilterInputs read_inputs(const Arguments& arguments, Stopwatch& watch) {
   inputs.mesh_path = arguments.argument("mesh");
   inputs.wrap = wrap_of(arguments);
   TextureRequest request{{}, arguments.optional_text("material"), tiles_of(arguments)};
+  // A glTF file with nothing to filter is written as it is, unless a slot was asked for.
+  request.may_be_none =
+      arguments.has("output") && is_gltf_name(arguments.text("output")) && !arguments.given("slot");
   if (arguments.has("texture")) {
     request.files = arguments.texts("texture");
   } else {
@@ -298,8 +301,32 @@ auto filtering(const FilterInputs& inputs, Work work) {
   return naming(inputs.mesh_path, [&] { return with_flags(work); });
 }
 
+/// A warning if there is nothing to filter in a glTF file, which is then written as it is.
+std::string why_nothing(const FilterInputs& inputs, const Arguments& arguments) {
+  constexpr const char* kAllStay = ": all images stay as they are";
+  if (!is_gltf_name(arguments.has("output") ? arguments.text("output") : "")) return {};
+  if (inputs.set.textures.empty()) {
+    return inputs.mesh_path + ": no material has a base colour texture (see --slot)" + kAllStay;
+  }
+  for (Index f = 0; f < inputs.mesh.faces.size(); ++f) {
+    const bool has_texels = inputs.set.tile_of_face[f] != kNone && inputs.mesh.has_uvs(f) &&
+                            inputs.mesh.uv_area(f) != 0;
+    if (has_texels) return {};
+  }
+  // They may all be spots in a palette.
+  return inputs.mesh_path + ": the UVs of no face have any area" + kAllStay;
+}
+
 void tell_plan(const Arguments& arguments, const FilterOptions& options, FilterInputs& inputs,
                json out) {
+  if (const std::string why = why_nothing(inputs, arguments); !why.empty()) {
+    inputs.warnings.push_back(why);
+    if (!arguments.flag("quiet")) warn(inputs.warnings);
+    out["plan"] = nullptr;
+    out["warnings"] = inputs.warnings;
+    if (arguments.flag("json")) print_report(std::move(out));
+    return;
+  }
   const FilterPlan plan =
       filtering(inputs, [&] { return plan_filter(inputs.mesh, inputs.textures(), options); });
   add_warnings(plan.warnings, inputs.warnings);
@@ -329,26 +356,14 @@ void write_results(const std::string& output, const OutputNames& outputs,
   write_images(files, {}, &inputs.warnings);
 }
 
-/// Whether any texel is on the surface. UVs may all be spots in a palette.
-bool has_texels(const FilterInputs& inputs) {
-  for (Index f = 0; f < inputs.mesh.faces.size(); ++f) {
-    if (inputs.set.tile_of_face[f] != kNone && inputs.mesh.has_uvs(f) &&
-        inputs.mesh.uv_area(f) != 0)
-      return true;
-  }
-  return false;
-}
-
 void filter_and_write(const Arguments& arguments, const FilterOptions& options,
                       FilterInputs& inputs, const OutputNames& outputs, json out,
                       Stopwatch& watch) {
   const bool quiet = arguments.flag("quiet");
   FilterReport report;
   std::vector<Image> results;
-  if (is_gltf_name(arguments.text("output")) && !has_texels(inputs)) {
-    // The file with nothing replaced is what was asked for.
-    inputs.warnings.push_back(inputs.mesh_path +
-                              ": the UVs of no face have any area: all images stay as they are");
+  if (const std::string why = why_nothing(inputs, arguments); !why.empty()) {
+    inputs.warnings.push_back(why);
     results = inputs.images;
   } else {
     ProgressBar bar(quiet);
@@ -365,7 +380,7 @@ void filter_and_write(const Arguments& arguments, const FilterOptions& options,
   report.stages.push_back(stage("write texture", watch));
   if (!quiet) {
     warn(inputs.warnings);
-    print_summary(report, watch.total(), std::cerr);
+    if (report.texels > 0) print_summary(report, watch.total(), std::cerr);
   }
   if (arguments.flag("json")) {
     out.update(to_json(report));

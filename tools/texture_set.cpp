@@ -225,7 +225,7 @@ std::vector<Group> groups_of(const TriangleMesh& mesh, const std::vector<Index>&
 
 TextureSet of_materials(const TriangleMesh& mesh, const std::vector<Index>& used,
                         const std::vector<Index>& textured, const TextureRequest& request) {
-  if (textured.empty()) {
+  if (textured.empty() && !(request.may_be_none && !request.material)) {
     throw UsageError("no texture: the mesh's materials name none; give one with -t");
   }
   std::vector<Group> groups = groups_of(mesh, textured);

@@ -40,6 +40,7 @@ struct TextureRequest {
   std::vector<int> only;                ///< --only: UDIM tiles to write; empty = all
   /// Files that lie outside this folder are refused; none = they may lie anywhere.
   std::optional<std::filesystem::path> confined_to = std::nullopt;
+  bool may_be_none = false;  ///< no textures if the materials name none, instead of an error
 };
 
 /// Find textures and faces.

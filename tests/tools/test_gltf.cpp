@@ -201,6 +201,21 @@ TEST_CASE("a GLB whose UVs are spots in a palette stays as it is", "[tools][gltf
   check_refused(space, "filter in.glb -o out.png", 3, "nothing to filter");
 }
 
+TEST_CASE("a GLB without a texture for the slot stays as it is", "[tools][gltf]") {
+  const Workspace space;
+  GltfBuilder gltf = square(space);
+  json& material = gltf.json["materials"][0];
+  material["normalTexture"] = material["pbrMetallicRoughness"]["baseColorTexture"];
+  material["pbrMetallicRoughness"].erase("baseColorTexture");
+  space.file("in.glb", gltf.glb());
+  const Run run = space.must("filter in.glb -o out.glb");
+  CHECK_THAT(run.err, Contains("in.glb: no material has a base colour texture"));
+  CHECK(glb_binary(read_file(space / "out.glb")) == gltf.binary());
+  CHECK_THAT(space.must("filter in.glb -o out.glb --dry-run").err, Contains("no material has"));
+  check_refused(space, "filter in.glb -o out.png", 2, "no texture");
+  check_refused(space, "filter in.glb -o other.glb --material skin", 2, "no texture");
+}
+
 TEST_CASE("glTF outputs are refused where they make no sense", "[tools][gltf]") {
   const Workspace space;
   space.file("in.glb", square(space).glb());
@@ -249,8 +264,9 @@ TEST_CASE("GLBs of the world in and out", "[tools][gltf][data][slow]") {
   const Workspace space;
   fs::create_directory(space / "out");
   for (const char* const name :
-       {"spot/cow.glb", "box_textured/BoxTextured.glb", "kenney_flag/flag.glb",
-        "bakes/lightmap/scene.glb", "bakes/pbr/lantern.glb"}) {
+       {"spot/cow.glb", "box_textured/BoxTextured.glb", "milk_truck/CesiumMilkTruck.glb",
+        "kenney_flag/flag.glb", "bakes/lightmap/scene.glb", "bakes/normal/barrel.glb",
+        "bakes/pbr/lantern.glb"}) {
     INFO(name);
     const fs::path in = shared_data() / name;
     const fs::path out = space / "out" / in.filename().string();
