@@ -23,7 +23,7 @@ constexpr float kDoubtfulSupport = 200, kDoubtfulShare = 0.2F;
 constexpr std::size_t kMostUncertain = 16;
 /// An error of an uncertain target that asks for more direct sums: in RMS errors of the patch, and
 /// the least and the most of it in tolerances.
-constexpr double kFarOff = 12, kLeastFarOff = 6, kMostFarOff = 16;
+constexpr double kFarOff = 6, kLeastFarOff = 4, kMostFarOff = 7;
 
 /// Factor of the squared radius within which faces are taken, beyond kRadiusSlack.
 constexpr double kReachSlack = 1 + 1e-4;
