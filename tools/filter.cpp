@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "atlas.h"
+#include "colour_spaces.h"
 #include "filter_report.h"
 #include "filtered_channels.h"
 #include "flags.h"
@@ -62,12 +63,17 @@ Command filter_command() {
   add("material", text(),
       "write the texture of this material only, the others are context; with one -t the faces that "
       "carry it, 'all' = all faces");
+  add("layer", text(),
+      "filter another layer of the images' channels, as in diffuse.R (default: R G B or Y; all "
+      "other channels stay as they are)");
   add("only", text(), "write these UDIM tiles only, the others are context, such as 1001,1003");
   add("stop-at", text("none"), "none, or material: colour does not flow across materials");
   add("kind", text("bilateral"), "bilateral (keeps edges) or gaussian (blurs)");
   add("sigma-spatial", text("4tx"), "length: width of the filter on the surface");
   add("sigma-range", text("0.1"),
       "bilateral: width of the filter in colour differences; values run from 0 to 1 (or 25/255)");
+  add_range_space_option(command.options);
+  add_colour_space_options(command.options);
   add("radius", text(),
       "length: how far samples count (default: 2.5 sigma bilateral, 3 sigma gaussian)");
   add("distance", text("auto"), "how distances are computed: auto, unfold, heat, cloud or exact");
@@ -110,8 +116,9 @@ namespace {
 using nlohmann::json;
 
 void refuse_ignored(const Arguments& arguments, const FilterOptions& options) {
-  if (options.kind == FilterKind::gaussian && arguments.given("sigma-range")) {
-    throw UsageError("--sigma-range: only with --kind bilateral");
+  for (const char* name : {"sigma-range", "range-space"}) {
+    if (options.kind == FilterKind::gaussian && arguments.given(name))
+      throw UsageError(dashed(name) + ": only with --kind bilateral");
   }
   if (options.method == FilterMethod::direct && arguments.given("tolerance")) {
     throw UsageError("--tolerance: not with --method direct");
@@ -142,6 +149,7 @@ FilterOptions filter_options(const Arguments& arguments) {
   refuse_ignored(arguments, options);
   options.sigma_spatial = arguments.length("sigma-spatial");
   options.sigma_range = arguments.number("sigma-range");
+  options.range_space = range_space_of(arguments);
   if (arguments.has("tolerance")) options.tolerance = arguments.number("tolerance");
   options.radius = arguments.optional_length("radius");
   options.spacing = arguments.optional_length("spacing");
@@ -177,14 +185,22 @@ struct FilterInputs {
   std::string mesh_path;
   TriangleMesh mesh;
   TextureSet set;
-  std::vector<Image> images;  ///< per texture of the set
-  FilteredChannels filtered;  ///< what of them is filtered
+  std::vector<Image> images;              ///< per texture of the set
+  std::vector<ColourSpaceChoice> spaces;  ///< of those
+  FilteredChannels filtered;              ///< what of them is filtered
   Wrap wrap = Wrap::repeat;
   std::vector<StageTime> stages;
   std::vector<std::string> warnings;
 
   SurfaceTextures textures() const {
-    return surface_textures(set, filtered.parts.empty() ? images : filtered.parts, wrap);
+    SurfaceTextures textures =
+        surface_textures(set, filtered.parts.empty() ? images : filtered.parts, wrap);
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      textures.tiles[i].space = spaces[i].space;
+      textures.tiles[i].premultiplied =
+          is_premultiplied(images[i]) && textures.tiles[i].image->alpha_channel >= 0;
+    }
+    return textures;
   }
 };
 
@@ -249,11 +265,21 @@ FilterInputs read_inputs(const Arguments& arguments, Stopwatch& watch) {
   });
   inputs.warnings.insert(inputs.warnings.end(), inputs.set.warnings.begin(),
                          inputs.set.warnings.end());
+  ColourSpaceRequest spaces = colour_space_request(
+      arguments, slot, is_gltf_name(inputs.mesh_path) && !arguments.has("texture"));
   for (const SetTexture& texture : inputs.set.textures) {
     inputs.images.push_back(read_texture(texture, inputs.warnings));
+    Image& image = inputs.images.back();
+    spaces.role = texture.role;
+    inputs.spaces.push_back(choose_colour_space(image, spaces));
+    if (inputs.spaces.back().has_no_alpha) image.alpha_channel = -1;
     check_interrupted();
   }
-  inputs.filtered = choose_channels(slot, inputs.images);
+  std::vector<std::string> names;
+  for (const SetTexture& texture : inputs.set.textures) names.push_back(texture.path.string());
+  inputs.filtered =
+      choose_channels(slot, inputs.images, names,
+                      arguments.has("layer") ? arguments.text("layer") : "", inputs.warnings);
   inputs.stages.push_back(stage("read texture", watch));
   return inputs;
 }
@@ -265,7 +291,9 @@ json texture_json(const FilterInputs& inputs, std::size_t i) {
           {"reason", inputs.set.reason},
           {"width", image.width},
           {"height", image.height},
-          {"channels", image.channels}};
+          {"channels", image.channels},
+          {"colour_space", inputs.spaces[i].name},
+          {"colour_space_reason", inputs.spaces[i].reason}};
 }
 
 /// The part of the JSON report that plan and run share.

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "onmesh/base/error.h"
+#include "onmesh/base/text.h"
 #include "onmesh/image/channels.h"
+#include "onmesh/image/layers.h"
 
 namespace onmesh::tools {
 namespace {
@@ -41,13 +44,40 @@ Image as_opaque(const Image& image) {
 
 }  // namespace
 
-FilteredChannels choose_channels(TextureSlot slot, const std::vector<Image>& images) {
+FilteredChannels choose_channels(TextureSlot slot, const std::vector<Image>& images,
+                                 const std::vector<std::string>& names, const std::string& layer,
+                                 std::vector<std::string>& warnings) {
   FilteredChannels filtered;
+  const auto take = [&](const Image& image, std::vector<int> channels) {
+    Image part = take_channels(image, channels);
+    const auto alpha = std::find(channels.begin(), channels.end(), image.alpha_channel);
+    if (alpha != channels.end()) part.alpha_channel = int(alpha - channels.begin());
+    filtered.parts.push_back(std::move(part));
+    filtered.channels.push_back(std::move(channels));
+  };
   if (slot == TextureSlot::occlusion || slot == TextureSlot::metallic_roughness) {
-    for (const Image& image : images) {
-      filtered.channels.push_back(channels_of_slot(slot, image.channels));
-      filtered.parts.push_back(take_channels(image, filtered.channels.back()));
+    for (const Image& image : images) take(image, channels_of_slot(slot, image.channels));
+    return filtered;
+  }
+  std::vector<std::vector<int>> chosen;
+  bool are_whole = true;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    try {
+      chosen.push_back(layer_channels(images[i], layer));
+    } catch (const InputError& error) {
+      throw InputError(names[i] + ": " + error.what() + (layer.empty() ? " with --layer" : ""));
     }
+    if (int(chosen[i].size()) == images[i].channels) continue;
+    are_whole = false;
+    std::string list;
+    for (const int c : chosen[i])
+      list += (list.empty() ? "" : " ") + images[i].channel_names[std::size_t(c)];
+    const auto others = std::uint64_t(images[i].channels) - chosen[i].size();
+    warnings.push_back(names[i] + ": the channels " + list + " are filtered, " +
+                       count_text(others, "other stays as it is", "others stay as they are"));
+  }
+  if (!are_whole) {
+    for (std::size_t i = 0; i < images.size(); ++i) take(images[i], chosen[i]);
   } else if (differ_by_alpha(images)) {
     for (const Image& image : images) {
       filtered.channels.emplace_back();

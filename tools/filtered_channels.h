@@ -1,6 +1,7 @@
 // Which channels of the textures are filtered, and how those become one map.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "onmesh/image/image.h"
@@ -16,8 +17,15 @@ struct FilteredChannels {
 };
 
 /// The channels that textures have for a slot: occlusion R, metallicRoughness G and B (grey if
-/// there is no more), else all. An image without alpha beside others that have it counts as opaque.
-FilteredChannels choose_channels(TextureSlot slot, const std::vector<Image>& images);
+/// there is no more), else those of a layer, see layer_channels(). An image without alpha beside
+/// others that have it counts as opaque.
+/// \param names of the images, for errors
+/// \param layer empty: the image itself
+/// \param warnings receives which images have more channels
+/// \throw InputError if an image has no such layer
+FilteredChannels choose_channels(TextureSlot slot, const std::vector<Image>& images,
+                                 const std::vector<std::string>& names, const std::string& layer,
+                                 std::vector<std::string>& warnings);
 
 /// The results as whole textures: channels that were left out are as they were.
 /// \param results of the parts, if there are any

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "atlas.h"
+#include "colour_spaces.h"
 #include "filtered_channels.h"
 #include "flags.h"
 #include "format.h"
@@ -13,6 +14,7 @@
 #include "onmesh/atlas/uv_overlap.h"
 #include "onmesh/base/face_error.h"
 #include "onmesh/mesh/coarse_coordinates.h"
+#include "onmesh/mesh_io/write_gltf.h"
 #include "shared_options.h"
 
 namespace onmesh::tools {
@@ -108,14 +110,29 @@ void examine_textures(const InputMesh& input, const Arguments& arguments, Findin
     findings.missing = atlas.set.warnings;
     findings.warnings = atlas.warnings;
     check_interrupted();
+    // What is filtered may be some of the channels; what is told is of the file.
     std::vector<int> channels;
-    for (const Image& image : atlas.images) channels.push_back(image.channels);
-    FilteredChannels filtered = choose_channels(slot_of(arguments), atlas.images);
+    std::vector<ColourSpaceChoice> spaces;
+    std::vector<std::string> names;
+    const bool has_slot = is_gltf_name(input.path) && !is_given;
+    ColourSpaceRequest request = colour_space_request_of_slot(slot_of(arguments), has_slot);
+    for (std::size_t i = 0; i < atlas.images.size(); ++i) {
+      channels.push_back(atlas.images[i].channels);
+      names.push_back(atlas.set.textures[i].path.string());
+      request.role = atlas.set.textures[i].role;
+      spaces.push_back(choose_colour_space(atlas.images[i], request));
+    }
+    FilteredChannels filtered =
+        choose_channels(slot_of(arguments), atlas.images, names, "", findings.warnings);
     if (!filtered.parts.empty()) atlas.images = std::move(filtered.parts);
     check_channels(atlas, findings);
     if (findings.refusal.empty()) findings.textures = measure(input, atlas, findings);
     for (std::size_t i = 0; i < std::min(channels.size(), findings.textures.size()); ++i)
       findings.textures[i].channels = channels[i];
+    for (std::size_t i = 0; i < std::min(spaces.size(), findings.textures.size()); ++i) {
+      findings.textures[i].colour_space = spaces[i].name;
+      findings.textures[i].colour_space_reason = spaces[i].reason;
+    }
   } catch (const UsageError& error) {
     if (is_given) throw;
     findings.refusal = error.what();

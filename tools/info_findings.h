@@ -21,7 +21,8 @@ struct TextureFacts {
   int width = 0, height = 0, channels = 0;
   std::uint64_t covered = 0, touched = 0, overlapped = 0, crowded = 0;  ///< texels
   double texel_size = 0;                                                ///< median, mesh units
-  std::optional<SeamError> seams;                                       ///< those with a side in it
+  std::string colour_space, colour_space_reason;  ///< as filter would take them
+  std::optional<SeamError> seams;                 ///< those with a side in it
 };
 
 /// The findings on one mesh file.

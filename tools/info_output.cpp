@@ -17,6 +17,8 @@ nlohmann::json texture_json(const TextureFacts& t) {
           {"width", t.width},
           {"height", t.height},
           {"channels", t.channels},
+          {"colour_space", text_or_null(t.colour_space)},
+          {"colour_space_reason", text_or_null(t.colour_space_reason)},
           {"covered", t.covered},
           {"touched", t.touched},
           {"overlapped", t.overlapped},
@@ -152,6 +154,8 @@ void print_texture(const TextureFacts& t) {
   if (t.channels > 0)
     std::cout << ", " << t.channels << (t.channels == 1 ? " channel" : " channels");
   std::cout << '\n';
+  if (!t.colour_space.empty())
+    row("colour space", t.colour_space + " (" + t.colour_space_reason + ")");
   const double texels = double(t.width) * t.height;
   row("covered texels",
       format_count(t.covered) + " (" + format_percent(double(t.covered) / texels) + ")");

@@ -349,13 +349,28 @@ void require_confined(const TextureRequest& request, const TextureSet& set) {
 
 }  // namespace
 
-TextureSet choose_textures(const TriangleMesh& mesh, const TextureRequest& request) {
+/// Gives the textures the roles of the names they were found by.
+void assign_roles(const std::vector<NamedTexture>& named, TextureSet& set) {
+  for (SetTexture& texture : set.textures) {
+    for (const NamedTexture& one : named) {
+      if (named.size() == 1 || texture.path == fs::path(one.name)) texture.role = one.role;
+    }
+  }
+}
+
+TextureSet choose_textures(const TriangleMesh& mesh, const TextureRequest& with_roles) {
+  TextureRequest request = with_roles;
+  std::vector<NamedTexture> named;
+  for (std::string& file : request.files) {
+    named.push_back(split_role(file));
+    file = named.back().name;
+  }
   const std::vector<Index> used = used_materials(mesh);
   std::vector<Index> textured;
   for (const Index m : used) {
     if (!mesh.materials[m].texture.empty()) textured.push_back(m);
   }
-  for (const std::string& file : request.files) refuse_maps_and_roles(file);
+  for (const std::string& file : request.files) refuse_maps(file);
   const bool by_material =
       request.files.size() == 1 && request.files[0].find("{material}") != std::string::npos;
   TextureSet set = request.files.empty()       ? of_materials(mesh, used, textured, request)
@@ -363,6 +378,7 @@ TextureSet choose_textures(const TriangleMesh& mesh, const TextureRequest& reque
                    : request.files.size() == 1 ? of_one_file(mesh, used, textured, request)
                                                : of_files(mesh, used, textured, request);
   require_confined(request, set);
+  assign_roles(named, set);
   choose_tiles(request.only, set);
   return set;
 }

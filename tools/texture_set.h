@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "colour_spaces.h"
 #include "onmesh/base/error.h"
 #include "onmesh/filter/surface_textures.h"
 #include "onmesh/mesh/triangle_mesh.h"
@@ -20,6 +21,7 @@ struct SetTexture {
   int udim = 0;                ///< UDIM tile, 1001 to 9999; 0 = not a tile of several
   bool is_written = true;      ///< else it is context: read, filtered, not written
   std::shared_ptr<const std::string> content = nullptr;  ///< if it is inside the mesh file
+  Role role = Role::unknown;                             ///< as map.png@data says
 
   int column() const { return udim == 0 ? 0 : (udim - 1001) % 10; }
   int row() const { return udim == 0 ? 0 : (udim - 1001) / 10; }
@@ -52,6 +54,7 @@ struct TextureRequest {
 /// `<UVTILE>` and `{material}` in a name stand for what is there; x.1001.png with UVs beyond the
 /// tile is taken for one of several UDIM tiles.
 /// \throw InputError for a file outside the folder that the request is confined to
+/// A role may stand behind each name: see split_role().
 /// \throw UsageError that says what to give; FileError for a pattern that no file matches, or a
 ///   missing file, naming the material
 TextureSet choose_textures(const TriangleMesh& mesh, const TextureRequest& request);

@@ -73,20 +73,13 @@ std::optional<TileName> tile_name(const fs::path& path) {
   return TileName{text.substr(0, at), text.substr(at + 4), false, false};
 }
 
-void refuse_maps_and_roles(const std::string& file) {
+void refuse_maps(const std::string& file) {
   std::error_code error;
   if (fs::exists(file, error)) return;
   const auto equals = file.find('=');
   if (equals != std::string::npos && file.find('/') > equals) {
     throw UsageError("--texture: '" + file.substr(0, equals) +
                      "=': maps of several kinds cannot be given yet, and there is no file " + file);
-  }
-  const auto at = file.rfind('@');
-  constexpr std::array kRoles{"colour", "data", "normal-gl", "normal-dx", "object-normal"};
-  if (at != std::string::npos &&
-      std::find(kRoles.begin(), kRoles.end(), file.substr(at + 1)) != kRoles.end()) {
-    throw UsageError("--texture: '" + file.substr(at) +
-                     "': roles cannot be given yet, and there is no file " + file);
   }
 }
 

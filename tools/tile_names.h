@@ -22,10 +22,9 @@ struct TileName {
 /// after a dot, a dash or an underscore. Nothing if there is none.
 std::optional<TileName> tile_name(const std::filesystem::path& path);
 
-/// Maps (MAP=FILE) and roles (FILE@ROLE) are understood, and not yet there. An existing file of the
-/// whole name is a file.
+/// Maps (MAP=FILE) are understood, and not yet there. An existing file of the whole name is a file.
 /// \throw UsageError
-void refuse_maps_and_roles(const std::string& file);
+void refuse_maps(const std::string& file);
 
 /// Whether an output's name holds a placeholder.
 bool has_placeholder(const std::string& output);

@@ -1,6 +1,7 @@
 #include "onmesh/filter/draw_samples.h"
 
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "onmesh/filter/node_spacing.h"
 #include "onmesh/nodes/refine.h"
@@ -57,23 +58,25 @@ TEST_CASE("samples of one spacing stand for equal shares of the surface", "[samp
   CHECK(area_of(drawn.samples.sources) * unit * unit == Approx(24).epsilon(0.01));
 }
 
-TEST_CASE("colours are the texture's own where alpha comes last, else copied", "[samples]") {
-  Image texture = make_image(2, 1, 3);
-  for (std::size_t k = 0; k < 6; ++k) texture.pixels[k] = float(k);
-  std::vector<float> packed;
-  texture.alpha_channel = 2;
-  const Colours own = gather_colours(one_texture(texture, {}), true, packed);
-  CHECK(own.values == texture.pixels.data());
-  CHECK(own.channels == 2);
-  CHECK(own.range_channels == 2);
-  CHECK(own.stride == 3);
-  CHECK(packed.empty());
-  texture.alpha_channel = 0;
-  const Colours copied = gather_colours(one_texture(texture, {}), false, packed);
-  CHECK(packed == std::vector<float>{1, 2, 4, 5});
-  CHECK(copied.values == packed.data());
-  CHECK(copied.range_channels == 0);
-  CHECK(copied.stride == 2);
+TEST_CASE("sources weigh as much as alpha shows of them", "[samples]") {
+  Drawn drawn = draw(make_plane(1, 1), {});
+  const auto& samples = drawn.samples;
+  Image texture = make_image(96, 72, 2);
+  texture.alpha_channel = 1;
+  for (Index t = 0; t < Index{96 * 72}; ++t) texture.texel(t)[1] = 1;
+  weigh_by_alpha(one_texture(texture, {}), drawn.samples);
+  CHECK_FALSE(samples.targets_are_own);  // nothing to weigh
+  const double area = area_of(samples.sources);
+  const Index half = samples.sources.samples[0].texel, none = samples.sources.samples[1].texel;
+  texture.texel(half)[1] = 0.5F;
+  texture.texel(none)[1] = std::numeric_limits<float>::quiet_NaN();
+  weigh_by_alpha(one_texture(texture, {}), drawn.samples);
+  CHECK(samples.targets_are_own);
+  CHECK(area_of(samples.targets()) == Approx(area));
+  const float one = samples.targets().samples[0].area;
+  CHECK(samples.sources.samples[0].area == 0.5F * one);
+  CHECK(samples.sources.samples[1].area == 0);
+  CHECK(area_of(samples.sources) == Approx(area - 1.5 * one));
 }
 
 }  // namespace

@@ -120,8 +120,7 @@ TEST_CASE("a deep EXR is refused", "[several_images]") {
   CHECK_THROWS_WITH(read_image(folder / "a.exr"), Contains("a.exr: deep images"));
 }
 
-TEST_CASE("several layers of channels are filtered together, with a warning that names them",
-          "[several_images]") {
+TEST_CASE("several layers of channels are named in a warning", "[several_images]") {
   const ImageFolder folder;
   const auto layers_told = [&](const std::vector<std::string>& names) {
     OIIO::ImageSpec spec(4, 4, int(names.size()), OIIO::TypeDesc::HALF);
@@ -135,6 +134,6 @@ TEST_CASE("several layers of channels are filtered together, with a warning that
   CHECK(layers_told({"diffuse.R", "diffuse.G", "diffuse.B"}).empty());
   const auto two = layers_told({"R", "G", "B", "diffuse.R", "diffuse.G", "view.left.R"});
   REQUIRE(two.size() == 1);
-  CHECK_THAT(two[0], Contains("a.exr: its layers (") && Contains("(default)") &&
+  CHECK_THAT(two[0], Contains("a.exr: it has several layers (") && Contains("(default)") &&
                          Contains("diffuse") && Contains("view.left"));
 }

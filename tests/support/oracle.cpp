@@ -19,6 +19,10 @@ bool is_usable(const Image& texture, Index texel) {
   return true;
 }
 
+double alpha_of(const Image& texture, Index texel) {
+  return texture.alpha_channel < 0 ? 1 : double(texture.texel(texel)[texture.alpha_channel]);
+}
+
 double squared_colour_distance(const Image& texture, Index a, Index b) {
   double sum = 0;
   for (int c = 0; c < texture.channels; ++c) {
@@ -78,7 +82,8 @@ std::vector<double> filtered_value(const TexelPoints& all, const Neighbourhood& 
   const Index own = all.texels[around.centre];
   const float* const own_values = texture.texel(own);
   std::vector<double> value(own_values, own_values + texture.channels);
-  if (!is_usable(texture, own)) return value;
+  if (alpha_of(texture, own) == 0) return value;
+  const bool is_compared = weights.sigma_range > 0 && is_usable(texture, own);
   std::vector<double> sum(value.size(), 0);
   double total = 0;
   for (std::size_t k = 0; k < around.near.size(); ++k) {
@@ -87,11 +92,12 @@ std::vector<double> filtered_value(const TexelPoints& all, const Neighbourhood& 
     const std::size_t y = around.near[k];
     if (!is_usable(texture, all.texels[y])) continue;
     double exponent = squared / (2 * weights.sigma * weights.sigma);
-    if (weights.sigma_range > 0) {
+    if (is_compared) {
       exponent += squared_colour_distance(texture, own, all.texels[y]) /
                   (2 * weights.sigma_range * weights.sigma_range);
     }
-    const double w = all.areas[y] * std::exp(-exponent);
+    const double w =
+        all.areas[y] * std::max(alpha_of(texture, all.texels[y]), 0.0) * std::exp(-exponent);
     total += w;
     if (pairs != nullptr) ++*pairs;
     for (std::size_t c = 0; c < sum.size(); ++c)
@@ -114,7 +120,7 @@ DefinitionError against_definition(const TriangleMesh& mesh, const Image& textur
   for (std::size_t i = 0; i < count; ++i) {
     const Index texel = all.texels[random() % all.texels.size()];
     const std::vector<double> value = value_of_texel(all, texel, texture, weights, distances, out);
-    const bool stays = !is_usable(texture, texel);
+    const bool stays = alpha_of(texture, texel) == 0;
     for (std::size_t c = 0; c < value.size(); ++c) {
       const float before = texture.texel(texel)[c], after = result.texel(texel)[c];
       if (stays || int(c) == texture.alpha_channel) {

@@ -48,8 +48,9 @@ struct Weights {
   double sigma_range = 0;        ///< value units; 0: no colour weight, that is the Gaussian filter
 };
 
-/// The filter's value at the neighbourhood's centre, one number per channel. Alpha takes no part
-/// and stays. A texel with a value that is not finite is no sample, and keeps its values.
+/// The filter's value at the neighbourhood's centre, one number per channel. Alpha stays; it is the
+/// samples' weight, and what has none keeps its values. A texel with a value that is not finite is
+/// no sample, and has the mean without the colour weight.
 /// \param pairs the samples that took part are added to it
 std::vector<double> filtered_value(const TexelPoints& all, const Neighbourhood& around,
                                    const Image& texture, const Weights& weights,
@@ -64,8 +65,8 @@ struct DefinitionError {
 
 /// How far `result` is from the filter's definition, on `count` texels chosen at random with a
 /// fixed seed. Texels of several places have the mean of their values there, weighted by area.
-/// Alpha and values that are not finite must be the texture's: else, and if the result is not
-/// finite, `worst` is infinite. \pre the mesh is welded and clean
+/// Alpha and colours without alpha must be the texture's: else, and if the result is not finite,
+/// `worst` is infinite. \pre the mesh is welded and clean
 DefinitionError against_definition(const TriangleMesh& mesh, const Image& texture,
                                    const Image& result, const Weights& weights, std::size_t count,
                                    const Distances& distances);

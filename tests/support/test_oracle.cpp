@@ -166,7 +166,7 @@ TEST_CASE("the oracle sums two texels as one does by hand", "[oracle]") {
   CHECK(value_of(image, left, {0.7, 0.99})[0] == Approx(0.2));
 }
 
-TEST_CASE("the oracle leaves out what is not finite and keeps alpha", "[oracle]") {
+TEST_CASE("the oracle leaves out what is not finite, weighs by alpha and keeps it", "[oracle]") {
   const TexelPoints all = texel_points(two_texels(), 2, 1);
   const std::size_t left = all.texels[0] == 0 ? 0 : 1, right = 1 - left;
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -175,12 +175,18 @@ TEST_CASE("the oracle leaves out what is not finite and keeps alpha", "[oracle]"
   image.alpha_channel = 2;
   CHECK(value_of(image, left, {0.7, 1})[0] == Approx(0.2));
   CHECK(value_of(image, left, {0.7, 1})[2] == Approx(0.1));
-  CHECK(value_of(image, right, {0.7, 1})[0] == Approx(0.8));
-  CHECK(std::isnan(value_of(image, right, {0.7, 1})[1]));
-  // Alpha may be anything, and weighs nothing.
-  image.pixels = {0.2F, 0.4F, 0.1F, 0.8F, 0.4F, nan};
+  // What is not finite has the mean of what is.
+  CHECK(value_of(image, right, {0.7, 1})[0] == Approx(0.2));
+  CHECK(value_of(image, right, {0.7, 1})[1] == Approx(0.4));
+  CHECK(value_of(image, right, {0.7, 1, 0.5})[1] == Approx(0.4));
+  CHECK(value_of(image, right, {0.7, 1})[2] == Approx(0.9));
+  image.pixels = {0.2F, 0.4F, 0.1F, 0.8F, 0.4F, 0};
+  CHECK(value_of(image, left, {0.7, 1})[0] == Approx(0.2));
+  CHECK(value_of(image, right, {0.7, 1})[0] == Approx(0.8));  // nothing can be seen of it
+  image.pixels = {0.2F, 0.4F, 0.1F, 0.8F, 0.4F, 0.3F};
   const double g = std::exp(-1 / (2 * 0.7 * 0.7)), f = std::exp(-0.36 / (2 * 0.5 * 0.5));
-  CHECK(value_of(image, left, {0.7, 1, 0.5})[0] == Approx((0.2 + 0.8 * g * f) / (1 + g * f)));
+  CHECK(value_of(image, left, {0.7, 1, 0.5})[0] ==
+        Approx((0.1 * 0.2 + 0.3 * 0.8 * g * f) / (0.1 + 0.3 * g * f)));
   CHECK(value_of(image, left, {0.7, 1, 0.5})[2] == Approx(0.1));
 }
 

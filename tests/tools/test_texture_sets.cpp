@@ -142,7 +142,7 @@ TEST_CASE("sets that cannot be are refused before anything is written", "[tools]
                 "--output: a.png and b.png would both be written to one.png");
   check_refused(space, "filter two.obj -o '{ext}.png'", 2, "would both be written to");
   check_refused(space, "filter two.obj -t color=a.png -o o/", 2, "maps of several kinds");
-  check_refused(space, "filter two.obj -t a.png@data -o o/", 2, "roles cannot be given yet");
+  check_refused(space, "filter two.obj -t a.png@number -o o/", 2, "unknown role '@number'");
   check_refused(space, "filter two.obj -t 'x.<UDIM>.png' --material a -o o/", 4,
                 "x.<UDIM>.png: no file for any of the tiles");
   check_refused(space, "filter udim.obj --only 1003 -o o/", 2, "--only: there is no tile 1003");

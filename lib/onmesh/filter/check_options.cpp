@@ -130,7 +130,7 @@ void check_arrays(const TriangleMesh& mesh) {
   }
 }
 
-void check_textures(const SurfaceTextures& textures, std::size_t faces) {
+void check_textures(const SurfaceTextures& textures, std::size_t faces, RangeSpace range_space) {
   if (textures.tiles.empty()) throw InputError("there is no texture");
   if (!textures.tile_of_face.empty())
     check_count("tile_of_face", textures.tile_of_face.size(), faces);
@@ -152,6 +152,10 @@ void check_textures(const SurfaceTextures& textures, std::size_t faces) {
   }
   constexpr double kMostTexels = 4294967295.0;
   if (texels >= kMostTexels) throw InputError("the textures have more than 2^32 texels in all");
+  if (range_space == RangeSpace::oklab && first.range_channels().size() != 3) {
+    throw OptionError("range_space",
+                      "oklab is for three channels, and the texture has " + channels_text(first));
+  }
   if (first.range_channels().empty()) {
     throw InputError("the texture has no channel but alpha: nothing to filter");
   }

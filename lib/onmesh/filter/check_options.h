@@ -29,6 +29,7 @@ void check_arrays(const TriangleMesh& mesh);
 /// \param faces of the mesh as given
 /// \throw InputError if an image's arrays do not fit together, it has no channel but alpha, or the
 ///   channels of the tiles differ
-void check_textures(const SurfaceTextures& textures, std::size_t faces);
+void check_textures(const SurfaceTextures& textures, std::size_t faces,
+                    RangeSpace range_space = RangeSpace::code);
 
 }  // namespace onmesh

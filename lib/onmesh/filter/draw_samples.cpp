@@ -1,5 +1,7 @@
 #include "onmesh/filter/draw_samples.h"
 
+#include <algorithm>
+
 #include "onmesh/poisson/poisson.h"
 
 namespace onmesh {
@@ -41,22 +43,21 @@ FilterSamples draw_samples(const FilterSetup& setup, const NodeSurface& surface,
   return samples;
 }
 
-Colours gather_colours(const SurfaceTextures& textures, bool bilateral,
-                       std::vector<float>& packed) {
-  const Image& first = *textures.tiles[0].image;
-  const std::vector<int> channels = first.range_channels();
-  const auto count = static_cast<int>(channels.size());
-  if (textures.tiles.size() == 1 && channels.back() == count - 1) {
-    return {first.pixels.data(), count, bilateral ? count : 0, first.channels, first.width};
+void weigh_by_alpha(const SurfaceTextures& textures, FilterSamples& samples) {
+  const ConstTexelValues texels = textures.values();
+  const int channel = texels.alpha_channel();
+  if (channel < 0) return;
+  const auto is_weighted = [&](const Sample& s) { return texels[s.texel][channel] != 1; };
+  const auto& all = samples.sources.samples;
+  if (std::none_of(all.begin(), all.end(), is_weighted)) return;
+  if (!samples.targets_are_own) {
+    samples.own_targets = samples.sources;
+    samples.targets_are_own = true;
   }
-  packed.reserve(std::size_t(textures.values().size()) * channels.size());
-  for (const TextureTile& tile : textures.tiles) {
-    const auto texels = Index(tile.image->width) * Index(tile.image->height);
-    for (Index t = 0; t < texels; ++t) {
-      for (const int c : channels) packed.push_back(tile.image->texel(t)[c]);
-    }
+  for (Sample& s : samples.sources.samples) {
+    const float alpha = texels[s.texel][channel];
+    s.area = alpha > 0 ? s.area * alpha : 0;  // not a number counts for nothing
   }
-  return {packed.data(), count, bilateral ? count : 0, count, first.width};
 }
 
 }  // namespace onmesh

@@ -23,10 +23,8 @@ struct FilterSamples {
 FilterSamples draw_samples(const FilterSetup& setup, const NodeSurface& surface,
                            const FilterOptions& options, const Progress& progress);
 
-/// The colours to filter: a single texture's own pixels where its colour channels come first, else
-/// a copy of them in `packed`.
-/// \param bilateral whether they take part in weights
-/// \pre the images and packed outlive the result
-Colours gather_colours(const SurfaceTextures& textures, bool bilateral, std::vector<float>& packed);
+/// Weigh the sources by their texels' alpha: what cannot be seen has no colour. Where all are
+/// opaque nothing changes.
+void weigh_by_alpha(const SurfaceTextures& textures, FilterSamples& samples);
 
 }  // namespace onmesh

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "onmesh/atlas/fill_rings.h"
 #include "onmesh/atlas/gutter.h"
 #include "onmesh/base/face_error.h"
 #include "onmesh/base/process_memory.h"
@@ -22,6 +23,7 @@
 #include "onmesh/filter/results.h"
 #include "onmesh/filter/setup.h"
 #include "onmesh/filter/stages.h"
+#include "onmesh/filter/working_values.h"
 #include "onmesh/nodes/bridge.h"
 
 namespace onmesh {
@@ -98,6 +100,22 @@ void note_counts(const PatchCounts& counts, FilterReport& report) {
   report.kernel_cpu_seconds = counts.kernel_cpu_seconds;
 }
 
+/// \param left covered texels that have no value even so
+void note_missing(const WorkingValues& working, std::uint64_t left, FilterReport& report) {
+  report.missing = working.missing();
+  if (working.missing() > 0) {
+    report.warnings.push_back(
+        count_text(working.missing(), "texel", "texels") +
+        " on the surface had values that are not finite: they did not count, and " +
+        (left == 0 ? std::string("were filled from around them")
+                   : "all but " + std::to_string(left) + " were filled from around them"));
+  }
+  if (working.emission() > 0) {
+    report.warnings.push_back(count_text(working.emission(), "texel", "texels") +
+                              " with alpha 0 and a colour multiplied with it: kept as emission");
+  }
+}
+
 /// What all stages of a run know.
 struct RunContext {
   const SurfaceTextures& textures;
@@ -145,27 +163,34 @@ NodeSurface make_nodes(const RunContext& run, std::vector<Image>& images) {
 
 /// Distances and sums, patch by patch, into the images.
 void filter_samples(const RunContext& run, const NodeMesh& nodes, const FilterSamples& samples,
-                    const TexelValues& results_at) {
+                    const WorkingValues& working, const TexelValues& results_at) {
   const FilterOptions& options = run.options;
   const WorkingPlan& lengths = run.setup.lengths;
   const bool bilateral = options.kind == FilterKind::bilateral;
   const auto backend = make_backend(options.distance, run.setup.mesh, nodes);
   note_backend(*backend, options.distance, run.setup.cleaning, run.report);
-  std::vector<float> packed;
+  const ConstTexelValues codes = run.textures.values();
   PatchWork work;
   work.nodes = &nodes;
   work.backend = backend.get();
   work.sources = &samples.sources;
   work.targets = &samples.targets();
-  work.colours = gather_colours(run.textures, bilateral, packed);
+  work.colours = working.colours();
   work.kernel = {lengths.sigma_spatial, lengths.radius, bilateral ? options.sigma_range : 0};
   work.method = options.method;
+  work.has_missing = working.missing() > 0;
   if (options.distance == DistanceMethod::exact) refuse_long_runs(work);
+  if (options.method != FilterMethod::direct) {
+    work.tolerance = options.tolerance * robust_extent(codes, run.setup.map);
+    work.hot_faces = hot_faces(work.colours, run.setup.map, samples.sources);
+    work.encode = [&](float* values, std::size_t targets) {
+      working.encode_values(values, targets);
+    };
+  }
 
   const bool poisson = options.samples == SampleKind::poisson;
   const ValueRange range =
-      value_range(run.textures.values(), run.setup.map, poisson ? &samples.sources : nullptr);
-  work.tolerance = options.tolerance * range.extent();
+      value_range(work.colours, codes, run.setup.map, poisson ? &samples.sources : nullptr);
   Results results(run.setup.overlap, samples.targets(), range, results_at);
   const PatchCounts counts = filter_patches(
       work, [&](Index begin, Index end, const float* values) { results.store(begin, end, values); },
@@ -199,23 +224,29 @@ std::vector<Image> run_filter(const TriangleMesh& mesh, const SurfaceTextures& t
     stages.end();
 
     stages.begin("samples");
+    const WorkingValues working(textures, setup.map, options);
+    working.load(images);
     FilterSamples samples = draw_samples(setup, surface, options, progress);
     surface.overlay = {};
+    weigh_by_alpha(textures, samples);
     report.samples = samples.sources.samples.size();
     report.texels = samples.targets().samples.size();
     stages.end();
 
     stages.begin("filter");
-    filter_samples(run, surface.nodes, samples, values);
+    filter_samples(run, surface.nodes, samples, working, values);
     samples = {};
     surface = {};
     stages.end();
 
     stages.begin("gutter");
+    note_missing(working, fill_rings(setup.map, values), report);
+    std::vector<Index> gutter;
     if (options.gutter > 0) {
-      report.gutter =
-          fill_gutter(setup.mesh, setup.map, options.gutter, values, setup.lengths.bridge).size();
+      gutter = fill_gutter(setup.mesh, setup.map, options.gutter, values, setup.lengths.bridge);
+      report.gutter = gutter.size();
     }
+    working.encode(gutter, images);
     stages.end();
     return images;
   });

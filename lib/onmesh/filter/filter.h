@@ -14,8 +14,10 @@ namespace onmesh {
 ///
 /// A texel's result is the weighted mean of the samples within the radius, with weights
 /// area * exp(-d^2 / (2 sigma_spatial^2)) * exp(-|difference of colour|^2 / (2 sigma_range^2)), d
-/// the geodesic distance; the last factor for the bilateral filter only. Alpha takes no part and
-/// stays. Texels around the charts are filled from inside (`gutter`), all others stay.
+/// the geodesic distance; the last factor for the bilateral filter only. Sums are of linear light
+/// (TextureTile::space). Alpha weighs the samples and stays; texels without any stay, too. Values
+/// that are not finite are no samples, and are filled. Texels around the charts are filled from
+/// inside (`gutter`), all others stay.
 ///
 /// Same input and options give identical values for any thread count. Any triangles will do: edges
 /// with many faces, bow ties and one-sided parts are filtered across; components do not influence

@@ -7,6 +7,7 @@
 
 #include "onmesh/base/error.h"
 #include "onmesh/base/process_memory.h"
+#include "onmesh/filter/working_values.h"
 
 namespace onmesh {
 namespace {
@@ -48,11 +49,13 @@ std::uint64_t whole_number(double estimate) {
 std::uint64_t expected_memory(const SurfaceTextures& textures, const FilterPlan& plan,
                               const FilterOptions& options) {
   const ConstTexelValues texels = textures.values();
-  // The results and, of several textures, the values side by side.
-  const double copies = textures.tiles.size() > 1 ? 2 : 1;
-  const double values = copies * double(texels.size()) * texels.channels() * sizeof(float);
+  // The results and, if they are others than the codes, what is summed.
+  const double values = double(texels.size()) * texels.channels() * sizeof(float) +
+                        WorkingValues::memory(textures, options);
+  // Weighed by alpha, samples are others than targets.
   const double per_sample =
-      options.samples == SampleKind::poisson ? kBytesPerPoissonSample : kBytesPerSample;
+      (options.samples == SampleKind::poisson ? kBytesPerPoissonSample : kBytesPerSample) +
+      (texels.alpha_channel() >= 0 ? kBytesPerSample : 0);
   return whole_number(double(resident_memory_bytes()) + values +
                       kBytesPerTexel * double(plan.texels) + per_sample * double(plan.samples) +
                       kBytesPerNode * double(plan.nodes) + kBytesPerThread * thread_count(options));

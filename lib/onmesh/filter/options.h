@@ -17,6 +17,14 @@ enum class FilterKind {
   gaussian,   ///< weights by distance alone: blurs
 };
 
+/// What the range weight compares.
+enum class RangeSpace {
+  code,    ///< codes as the file has them: sigma_range keeps its meaning
+  linear,  ///< linear light
+  log,     ///< log(1 + .72 light / its log-average) per channel: scaled light gives the same
+  oklab,   ///< as colours look; three channels of Rec. 709 primaries
+};
+
 /// What is summed over.
 enum class SampleKind {
   texel,    ///< every texel on the surface once, weighted by its area
@@ -35,8 +43,9 @@ struct FilterOptions {
   FilterKind kind = FilterKind::bilateral;  ///< with or without a range weight
   /// Width of the filter on the surface: standard deviation of the spatial weight; > 0.
   Length sigma_spatial{4, Length::Unit::texel};
-  /// Bilateral only: standard deviation of the range weight, in the texture's value units; > 0.
+  /// Bilateral only: standard deviation of the range weight, in the units of range_space; > 0.
   double sigma_range = 0.1;
+  RangeSpace range_space = RangeSpace::code;  ///< bilateral only: what sigma_range is in
   /// How far samples count; > 0. Default: 2.5 sigma_spatial (bilateral) or 3 (Gaussian).
   std::optional<Length> radius;
 
@@ -53,8 +62,8 @@ struct FilterOptions {
   std::optional<Length> node_spacing;
 
   FilterMethod method = FilterMethod::automatic;  ///< how the sums are done
-  /// Where the nodes are used: most RMS difference to the direct sums, as a share of the texture's
-  /// range of values (largest less smallest); > 0.
+  /// Where the nodes are used: most RMS difference to the direct sums of codes, as a share of the
+  /// textures' robust range (without one in a thousand at either end); > 0.
   double tolerance = 1.0 / 512;
 
   SampleKind samples = SampleKind::texel;  ///< what is summed over

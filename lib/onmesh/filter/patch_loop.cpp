@@ -91,7 +91,8 @@ class PatchFilter {
         longest_edge_(work.nodes->longest_edge()),
         by_nodes_(by_nodes),
         kernel_(work.kernel),
-        nodes_(work.kernel, work.tolerance, work.method == FilterMethod::nodes) {}
+        blur_({work.kernel.sigma_spatial, work.kernel.radius, 0}),
+        nodes_(work.kernel, work.tolerance, work.method == FilterMethod::nodes, work.encode) {}
 
   /// Filter the targets of the core faces.
   void run(const std::vector<Index>& core, PatchCounts& counts) {
@@ -121,15 +122,53 @@ class PatchFilter {
     const KernelInput input{&patch, &table_, work_.sources, work_.targets, work_.colours, nullptr};
     KernelCounts kernel;
     NodeCheck check;
-    if (by_nodes_ && nodes_.run(input, kernel_, values_, kernel, check)) {
+    if (by_nodes_ && !has_hot_sample(patch) && nodes_.run(input, kernel_, values_, kernel, check)) {
       counts.nodes.add(check);
       counts.pairs_within += check.pairs;
     } else {
       kernel = kernel_.run(input, values_);
       counts.pairs_within += double(kernel.pairs);
     }
+    if (work_.has_missing && work_.kernel.sigma_range > 0) {
+      const KernelCounts filled = fill_missing(input);
+      kernel.pairs += filled.pairs;
+      kernel.without_sample -= filled_ - filled.without_sample;
+    }
     counts.pairs += kernel.pairs;
     counts.without_sample += kernel.without_sample;
+  }
+
+  bool has_hot_sample(const Patch& patch) const {
+    return !work_.hot_faces.empty() && std::any_of(patch.faces.begin(), patch.faces.end(),
+                                                   [&](Index f) { return work_.hot_faces[f]; });
+  }
+
+  /// Targets that have nothing to be compared by get the mean that the Gaussian filter gives.
+  KernelCounts fill_missing(const KernelInput& input) {
+    const std::vector<Index> slots = first_slots(input);
+    const Patch& patch = *input.patch;
+    only_.assign(slots.back(), 0);
+    filled_ = 0;
+    for (Index f = 0; f < patch.core_faces; ++f) {
+      const Sample* const targets =
+          input.targets->samples.data() + input.targets->face_offsets[patch.faces[f]];
+      for (Index slot = slots[f]; slot < slots[f + 1]; ++slot) {
+        const float* const floats = input.colours.of(targets[slot - slots[f]].texel);
+        only_[slot] = is_usable(floats, input.colours.fields(), 1) ? 0 : 1;
+        filled_ += only_[slot];
+      }
+    }
+    if (filled_ == 0) return {};
+    KernelInput missing = input;
+    missing.only = &only_;
+    missing.colours.range_channels = 0;
+    const KernelCounts counts = blur_.run(missing, blurred_);
+    const auto channels = std::size_t(input.colours.channels);
+    for (std::size_t slot = 0; slot < only_.size(); ++slot) {
+      if (only_[slot] == 0) continue;
+      std::copy_n(&blurred_[slot * channels], channels, &values_[slot * channels]);
+    }
+    return counts;
   }
 
   void store_values(const Patch& patch) const {
@@ -172,9 +211,13 @@ class PatchFilter {
   const double longest_edge_;
   const bool by_nodes_;
   DirectKernel kernel_;
+  DirectKernel blur_;  ///< without a range weight
   CheckedKernel nodes_;
   DistanceTable table_;
   std::vector<float> values_;
+  std::vector<unsigned char> only_;  ///< targets that are filled
+  std::uint64_t filled_ = 0;         ///< how many these are
+  std::vector<float> blurred_;
 };
 
 }  // namespace

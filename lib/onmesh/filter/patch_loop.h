@@ -20,7 +20,12 @@ struct PatchWork {
   Colours colours;
   KernelOptions kernel;
   FilterMethod method = FilterMethod::direct;
-  double tolerance = 0;  ///< value units, > 0; not for FilterMethod::direct
+  double tolerance = 0;  ///< of codes, > 0; not for FilterMethod::direct
+  EncodeValues encode;   ///< from values to codes, which errors are measured in; empty = the same
+  bool has_missing = false;  ///< some targets cannot be compared: they get the mean around them
+  /// Node faces with a sample so far from all others that sums on nodes would lose those beside it;
+  /// empty = none.
+  std::vector<bool> hot_faces;
 };
 
 struct PatchCounts {

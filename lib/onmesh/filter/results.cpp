@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace onmesh {
@@ -25,20 +26,23 @@ ValueRange join(ValueRange a, const ValueRange& b) {
   return a;
 }
 
+bool has_alpha_0(const ConstTexelValues& texels, Index texel) {
+  return texels.alpha_channel() >= 0 && texels[texel][texels.alpha_channel()] == 0;
+}
+
 /// The range of the finite values of `count` texels.
 /// \param texel_of the k-th of them, or kNone
 template <class TexelOf>
-ValueRange range_of_texels(const ConstTexelValues& texels, std::size_t count,
-                           const TexelOf& texel_of) {
-  const std::vector<int>& channels = texels.range_channels();
+ValueRange range_of_texels(const Colours& colours, std::size_t count, const TexelOf& texel_of) {
+  const auto channels = std::size_t(colours.channels);
   // A channel at a time, so that the range stays in registers.
   const auto widen = [&](ValueRange& range, std::size_t begin, std::size_t end) {
-    for (std::size_t c = 0; c < channels.size(); ++c) {
+    for (std::size_t c = 0; c < channels; ++c) {
       float lowest = range.lowest[c], highest = range.highest[c];
       for (std::size_t k = begin; k < end; ++k) {
         const Index texel = texel_of(k);
         if (texel == kNone) continue;
-        const float value = texels[texel][channels[c]];
+        const float value = colours.values_of(texel)[c];
         if (!std::isfinite(value)) continue;
         lowest = std::min(lowest, value);
         highest = std::max(highest, value);
@@ -48,7 +52,7 @@ ValueRange range_of_texels(const ConstTexelValues& texels, std::size_t count,
     }
   };
   return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, count, 16384), empty_range(channels.size()),
+      tbb::blocked_range<std::size_t>(0, count, 16384), empty_range(channels),
       [&](const tbb::blocked_range<std::size_t>& part, ValueRange range) {
         widen(range, part.begin(), part.end());
         return range;
@@ -56,27 +60,95 @@ ValueRange range_of_texels(const ConstTexelValues& texels, std::size_t count,
       join);
 }
 
-}  // namespace
+/// Rare values are beyond these percentiles.
+constexpr double kRare = 0.001;
 
-double ValueRange::extent() const {
-  float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
-  for (std::size_t c = 0; c < lowest.size(); ++c) {
-    low = std::min(low, lowest[c]);
-    high = std::max(high, highest[c]);
+/// The smallest and largest value that is not rare on the surface, of all channels.
+/// \param values_of the values of a texel, in the order of the channels
+template <class ValuesOf>
+std::pair<double, double> robust_range(const TexelMap& map, const std::vector<int>& channels,
+                                       const ValuesOf& values_of) {
+  // Rare is one in a thousand: a quarter of a million claims tell.
+  constexpr std::size_t kEnough = 1 << 18;
+  const std::size_t step = std::max<std::size_t>(1, map.claims.size() / kEnough);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  std::vector<std::pair<float, float>> weighted;  // values and areas
+  for (const int c : channels) {
+    weighted.clear();
+    double total = 0;
+    std::size_t next = 0;
+    for (Index f = 0; f + 1 < map.face_offsets.size(); ++f) {
+      for (next = std::max<std::size_t>(next, map.face_offsets[f]); next < map.face_offsets[f + 1];
+           next += step) {
+        const float value = values_of(map.tile_of(f).texel(map.claims[next]))[c];
+        if (!std::isfinite(value)) continue;
+        weighted.emplace_back(value, float(map.texel_area[f]));
+        total += weighted.back().second;
+      }
+    }
+    if (weighted.empty()) continue;
+    std::sort(weighted.begin(), weighted.end());
+    double before = 0;
+    for (const auto& [value, area] : weighted) {
+      if (before <= kRare * total) low = std::min(low, double(value));
+      if (before < (1 - kRare) * total) high = std::max(high, double(value));
+      before += area;
+    }
   }
-  return high > low ? double(high) - low : 1;
+  return {low, high};
 }
 
-ValueRange value_range(const ConstTexelValues& texels, const TexelMap& map,
+}  // namespace
+
+ValueRange value_range(const Colours& colours, const ConstTexelValues& alpha, const TexelMap& map,
                        const Samples* sources) {
+  const auto unless_clear = [&](Index texel) { return has_alpha_0(alpha, texel) ? kNone : texel; };
   // Covered texels are looked at in the texture's order, which is faster than that of the claims.
-  ValueRange range = range_of_texels(texels, map.coverage.size(), [&](std::size_t t) {
-    return map.coverage[t] == Coverage::covered ? Index(t) : kNone;
+  ValueRange range = range_of_texels(colours, map.coverage.size(), [&](std::size_t t) {
+    return map.coverage[t] == Coverage::covered ? unless_clear(Index(t)) : kNone;
   });
   if (sources == nullptr) return range;
   return join(std::move(range),
-              range_of_texels(texels, sources->samples.size(),
-                              [&](std::size_t k) { return sources->samples[k].texel; }));
+              range_of_texels(colours, sources->samples.size(), [&](std::size_t k) {
+                return unless_clear(sources->samples[k].texel);
+              }));
+}
+
+double robust_extent(const ConstTexelValues& codes, const TexelMap& map) {
+  const auto [low, high] =
+      robust_range(map, codes.range_channels(), [&](Index texel) { return codes[texel]; });
+  double largest = 0;
+  for (Index t = 0; t < codes.size(); ++t) {
+    if (map.coverage[t] != Coverage::covered) continue;
+    for (const int c : codes.range_channels()) {
+      const double code = std::abs(codes[t][c]);
+      if (std::isfinite(code)) largest = std::max(largest, code);
+    }
+  }
+  const double extent = std::max(high - low, 1e-6 * largest);
+  return extent > 0 ? extent : 1;
+}
+
+std::vector<bool> hot_faces(const Colours& colours, const TexelMap& map, const Samples& sources) {
+  std::vector<int> channels(std::size_t(colours.channels));
+  std::iota(channels.begin(), channels.end(), 0);
+  const auto [low, high] =
+      robust_range(map, channels, [&](Index texel) { return colours.values_of(texel); });
+  const double extent = high - low;
+  std::vector<bool> hot;
+  for (Index f = 0; f + 1 < sources.face_offsets.size(); ++f) {
+    for (Index k = sources.face_offsets[f]; k < sources.face_offsets[f + 1]; ++k) {
+      const float* const values = colours.values_of(sources.samples[k].texel);
+      const bool is_hot = std::any_of(values, values + colours.channels, [&](float value) {
+        return value > high + extent || value < low - extent;
+      });
+      if (!is_hot) continue;
+      hot.resize(sources.face_offsets.size() - 1, false);
+      hot[f] = true;
+      break;
+    }
+  }
+  return hot;
 }
 
 Results::Results(const OverlapPolicy& overlap, const Samples& targets, ValueRange range,
@@ -107,19 +179,16 @@ void Results::merge_shared() {
   shared_.merge([&](Index texel, const float* values) { write(texel, values); });
 }
 
-/// Rounding must not leave the samples' range; texels with a value that is not finite stay. Sums
-/// may overflow where values are as large as single precision has them: these texels stay as well.
+/// Rounding must not leave the samples' range. Sums may overflow where values are as large as
+/// single precision has them: these texels stay. So do those that nothing can be seen of.
 void Results::write(Index texel, const float* values) {
   const std::vector<int>& channels = texels_.range_channels();
   float* const out = texels_[texel];  // as the texture has it
-  bool is_finite = true;
-  for (std::size_t c = 0; c < channels.size(); ++c) {
-    is_finite &= std::isfinite(out[channels[c]]) && std::isfinite(values[c]);
-  }
-  if (!is_finite) return;
-  for (std::size_t c = 0; c < channels.size(); ++c) {
+  if (texels_.alpha_channel() >= 0 && out[texels_.alpha_channel()] == 0) return;
+  if (!std::all_of(values, values + channels.size(), [](float v) { return std::isfinite(v); }))
+    return;
+  for (std::size_t c = 0; c < channels.size(); ++c)
     out[channels[c]] = std::clamp(values[c], range_.lowest[c], range_.highest[c]);
-  }
 }
 
 }  // namespace onmesh

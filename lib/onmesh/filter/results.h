@@ -5,27 +5,36 @@
 
 #include "onmesh/filter/shared_results.h"
 #include "onmesh/image/texel_values.h"
+#include "onmesh/kernel/kernel_input.h"
 
 namespace onmesh {
 
-/// Smallest and largest value per colour channel of what is filtered, in value units.
+/// Smallest and largest working value per colour channel of what is filtered.
 struct ValueRange {
   std::vector<float> lowest, highest;  ///< infinite where no value is finite
-
-  /// Of all channels: the largest less the smallest value; 1 if all are equal.
-  double extent() const;
 };
 
 /// The range of all values that a texel may end up with: those of the samples, and those of the
 /// targets, which may keep theirs.
+/// \param alpha texels whose alpha is 0 are neither
 /// \param sources the samples, if others than the covered texels are summed over; else null
-ValueRange value_range(const ConstTexelValues& texels, const TexelMap& map, const Samples* sources);
+ValueRange value_range(const Colours& colours, const ConstTexelValues& alpha, const TexelMap& map,
+                       const Samples* sources);
+
+/// How far the texels' codes go without rare ones: from below the 99.9th percentile over the
+/// surface to above the 0.1th, of all channels; at least 1e-6 of the largest; 1 if all are 0.
+double robust_extent(const ConstTexelValues& codes, const TexelMap& map);
+
+/// Node faces with a sample that is farther from the texels' robust range of values than that is
+/// wide.
+/// \return one entry per node face, or none at all if there is no such sample
+std::vector<bool> hot_faces(const Colours& colours, const TexelMap& map, const Samples& sources);
 
 /// Takes the kernel's results and puts them into the images. Every texel is written by one thread:
 /// those with several claims wait in a list of their own until all are there.
 class Results {
  public:
-  /// \param texels of a copy of the textures, to be written
+  /// \param texels of a copy of the textures, to be written; those with alpha 0 are not
   /// \param range that results are clamped to, against rounding
   /// \pre targets and the images outlive this
   Results(const OverlapPolicy& overlap, const Samples& targets, ValueRange range,

@@ -1,11 +1,13 @@
 // The textures of a surface: one, or several that are filtered together.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "onmesh/atlas/texel_map.h"
 #include "onmesh/filter/options.h"
+#include "onmesh/image/colour_space.h"
 #include "onmesh/image/image.h"
 #include "onmesh/image/lookup.h"
 #include "onmesh/image/texel_values.h"
@@ -21,6 +23,9 @@ struct TextureTile {
   int column = 0;    ///< of the unit square of UVs that it fills, from u = 0
   int row = 0;       ///< the same from v = 0: UDIM tile 1001 + column + 10 row
   std::string name;  ///< what messages call it; may be empty if it is the only one
+  /// What its codes mean as light, which is what sums are of; null: codes are summed as they are.
+  std::shared_ptr<const ColourSpace> space = nullptr;
+  bool premultiplied = false;  ///< its colours are multiplied with alpha: see is_premultiplied()
 };
 
 /// All of them, each with its own size and wrap mode. They are one map: colour flows from one into

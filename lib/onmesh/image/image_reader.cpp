@@ -116,12 +116,28 @@ void ImageReader::check_header() {
   if (spec_.depth > 1) refuse_image(name, "volume images cannot be filtered");
   windows_ = {data_window(spec_), display_window(spec_, format_)};
   check_image_size(name, windows_.display.width, windows_.display.height, spec_.nchannels);
+  refuse_bomb();
   if (overlap_of(windows_.data, windows_.display).is_empty())
     refuse_image(name, "the file has no pixels inside its display window");
   // There the order of rows is part of the format, and those that run otherwise are hardly ever
   // met.
   if (format_ == "hdr" && orientation_of(spec_) != 1)
     refuse_image(name, "its rows do not run from left to right and top to bottom; save it anew");
+}
+
+/// Images inside other files come from anywhere: a few bytes must not become gigabytes.
+void ImageReader::refuse_bomb() const {
+  if (place_.path == place_.name) return;
+  constexpr double kAlways = 4096.0 * 4096 * 3, kPerByte = 512;  // values
+  std::error_code none;
+  const double bytes = double(std::filesystem::file_size(place_.path, none));
+  const double values = double(windows_.display.width) * windows_.display.height * spec_.nchannels;
+  if (values > kAlways && values > kPerByte * bytes) {
+    refuse_image(place_.name,
+                 std::to_string(windows_.display.width) + " x " +
+                     std::to_string(windows_.display.height) + " pixels are too many for " +
+                     std::to_string(std::uint64_t(bytes)) + " bytes inside another file");
+  }
 }
 
 void ImageReader::note_oddities() {
@@ -140,8 +156,8 @@ void ImageReader::note_oddities() {
         "the texture is all pixels that are stored; their place on a page is "
         "kept, not followed");
   if (const std::string layers = layers_of(spec_); !layers.empty())
-    warnings_.push_back("its layers (" + one_line(layers) +
-                        ") are filtered together, as one set of channels");
+    warnings_.push_back("it has several layers (" + one_line(layers) +
+                        "), of which one is filtered at a time");
 }
 
 void ImageReader::read(const std::function<void(std::span<const std::byte>, int, int)>& take) {

@@ -45,6 +45,7 @@ class ImageReader {
  private:
   void open();
   void check_header();
+  void refuse_bomb() const;
   void note_oddities();
   /// A library's message in one line, with the image's name for that of the place.
   std::string message(std::string text, const std::string& otherwise) const;

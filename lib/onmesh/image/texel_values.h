@@ -22,6 +22,7 @@ class NumberedTexels {
     next_ += Index(image.width) * Index(image.height);
     channels_ = image.channels;
     range_channels_ = image.range_channels();
+    alpha_channel_ = image.alpha_channel;
   }
 
   /// How many texels there are.
@@ -30,6 +31,8 @@ class NumberedTexels {
   int channels() const { return channels_; }
   /// As Image::range_channels().
   const std::vector<int>& range_channels() const { return range_channels_; }
+  /// As Image::alpha_channel.
+  int alpha_channel() const { return alpha_channel_; }
   /// The values of a texel, one per channel.
   Pixel* operator[](Index texel) const {
     std::size_t part = 0;
@@ -45,7 +48,7 @@ class NumberedTexels {
 
   std::vector<Part> parts_;
   std::vector<int> range_channels_;
-  int channels_ = 0;
+  int channels_ = 0, alpha_channel_ = -1;
   Index next_ = 0;
 };
 

@@ -76,8 +76,13 @@ void NodeCheck::add(const NodeCheck& other) {
   pairs += other.pairs;
 }
 
-CheckedKernel::CheckedKernel(const KernelOptions& options, double tolerance, bool always)
-    : nodes_(options), radius_(options.radius), tolerance_(tolerance), always_(always) {}
+CheckedKernel::CheckedKernel(const KernelOptions& options, double tolerance, bool always,
+                             EncodeValues encode)
+    : nodes_(options),
+      radius_(options.radius),
+      tolerance_(tolerance),
+      always_(always),
+      encode_(std::move(encode)) {}
 
 void CheckedKernel::pick(const KernelInput& input) {
   // Where most targets are summed directly there is little to check; then look elsewhere.
@@ -148,20 +153,34 @@ KernelCounts CheckedKernel::sum_directly(const KernelInput& input, DirectKernel&
   return counts;
 }
 
+std::vector<double> CheckedKernel::errors_of(const std::vector<Index>& targets,
+                                             std::size_t channels) const {
+  std::vector<float> found, right;
+  for (const Index k : targets) {
+    found.insert(found.end(), &values_[k * channels], &values_[k * channels] + channels);
+    right.insert(right.end(), &sums_[k * channels], &sums_[k * channels] + channels);
+  }
+  if (encode_) {
+    encode_(found.data(), targets.size());
+    encode_(right.data(), targets.size());
+  }
+  std::vector<double> errors;
+  for (std::size_t v = 0; v < found.size(); ++v)
+    errors.push_back(std::abs(double(found[v]) - right[v]));
+  return errors;
+}
+
 double CheckedKernel::measure(const KernelInput& input, NodeCheck& check) const {
-  const auto channels = std::size_t(input.colours.channels);
   check.squared_error = 0;
   check.largest_error = 0;
   check.checked = 0;
-  for (const Index k : picked_) {
-    // Those with less are summed directly.
-    if (support_[k] < kLittleSupport) continue;
-    for (std::size_t c = 0; c < channels; ++c) {
-      const double error = std::abs(double(values_[k * channels + c]) - sums_[k * channels + c]);
-      check.squared_error += error * error;
-      check.largest_error = std::max(check.largest_error, error);
-      ++check.checked;
-    }
+  std::vector<Index> targets;  // those with less support are summed directly
+  for (const Index k : picked_)
+    if (support_[k] >= kLittleSupport) targets.push_back(k);
+  for (const double error : errors_of(targets, std::size_t(input.colours.channels))) {
+    check.squared_error += error * error;
+    check.largest_error = std::max(check.largest_error, error);
+    ++check.checked;
   }
   if (check.checked == 0) return std::numeric_limits<double>::infinity();
   return std::sqrt(check.squared_error / double(check.checked));
@@ -179,11 +198,9 @@ void CheckedKernel::settle_uncertain(const KernelInput& input, DirectKernel& ker
     counts.without_sample += more.without_sample;
     check.direct = little_supported_ + judged;
     double largest = 0;
-    for (std::size_t i = little_supported_ + judged; i < doubtful_.size(); ++i) {
-      const std::size_t first = doubtful_[i] * channels;
-      for (std::size_t v = first; v < first + channels; ++v)
-        largest = std::max(largest, std::abs(double(sums_[v]) - values_[v]));
-    }
+    const auto next = doubtful_.begin() + std::ptrdiff_t(little_supported_ + judged);
+    for (const double error : errors_of({next, doubtful_.end()}, channels))
+      largest = std::max(largest, error);
     check.largest_error = std::max(check.largest_error, largest);
     judged = doubtful_.size() - little_supported_;
     if (largest <= far_off || judged < others) break;

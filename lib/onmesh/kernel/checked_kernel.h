@@ -2,12 +2,18 @@
 // it where it is uncertain.
 #pragma once
 
+#include <functional>
+
 #include "onmesh/kernel/direct/direct_kernel.h"
 #include "onmesh/kernel/splat/node_kernel.h"
 
 namespace onmesh {
 
-/// What the check of one or more patches found. Errors are differences to the direct sum.
+/// From values to the codes that stand for them, in place: (values, number of targets).
+using EncodeValues = std::function<void(float* values, std::size_t targets)>;
+
+/// What the check of one or more patches found. Errors are differences to the direct sum,
+/// of codes.
 struct NodeCheck {
   std::uint64_t targets = 0;  ///< evaluated on nodes
   std::uint64_t direct = 0;   ///< targets among them that were summed directly after all
@@ -24,9 +30,11 @@ struct NodeCheck {
 /// Filters patches one after the other, keeping its buffers. One object per thread.
 class CheckedKernel {
  public:
-  /// \param tolerance of the RMS error, in value units, > 0
+  /// \param tolerance of the RMS error of codes, > 0
   /// \param always whether the node kernel is used also where the tolerance is not met
-  CheckedKernel(const KernelOptions& options, double tolerance, bool always);
+  /// \param encode empty: values are codes
+  CheckedKernel(const KernelOptions& options, double tolerance, bool always,
+                EncodeValues encode = {});
 
   /// Filter all targets in the patch's core faces.
   ///
@@ -56,7 +64,10 @@ class CheckedKernel {
   /// The direct sums of targets picked at random and, if they are few, of doubtful ones.
   KernelCounts sum_first(const KernelInput& input, DirectKernel& kernel, NodeCheck& check);
   double measure(const KernelInput& input, NodeCheck& check) const;
-  /// \param far_off an error that asks for more direct sums, value units
+  /// Differences of codes between the nodes' results and the direct sums, one per channel of these
+  /// targets.
+  std::vector<double> errors_of(const std::vector<Index>& targets, std::size_t channels) const;
+  /// \param far_off an error that asks for more direct sums, in codes
   void settle_uncertain(const KernelInput& input, DirectKernel& kernel, double far_off,
                         KernelCounts& counts, NodeCheck& check);
 
@@ -64,6 +75,7 @@ class CheckedKernel {
   const double radius_;
   const double tolerance_;
   const bool always_;
+  const EncodeValues encode_;
   std::vector<Index> slots_;             ///< see first_slots()
   std::vector<float> values_, support_;  ///< of the nodes
   std::vector<float> sums_;              ///< of the direct sum, where it was asked for

@@ -16,25 +16,30 @@ struct KernelOptions {
   double sigma_range = 0;    ///< value units; 0 = Gaussian filter (no range weight)
 };
 
-/// Colours of the texels: `channels` values each. Only the first `range_channels` take part in the
-/// colour difference (at least one unless the filter is Gaussian); all are averaged.
+/// Colours of the texels: `channels` values each, which are averaged. The first `range_channels`
+/// floats of a texel take part in the colour difference (at least one unless the filter is
+/// Gaussian): values themselves, or features that come before them.
 struct Colours {
-  const float* values = nullptr;
+  const float* floats = nullptr;
   int channels = 0;
   int range_channels = 0;
-  int stride = 0;  ///< floats from one texel to the next
-  int width = 1;   ///< texels in a row of the texture: tells which are near each other
+  int stride = 0;       ///< floats from one texel to the next
+  int width = 1;        ///< texels in a row of the texture: tells which are near each other
+  int first_value = 0;  ///< features before the values; 0: values are compared
 
-  const float* of(Index texel) const { return values + std::size_t(texel) * std::size_t(stride); }
+  /// Floats of a texel that count.
+  int fields() const { return first_value + channels; }
+  const float* of(Index texel) const { return floats + std::size_t(texel) * std::size_t(stride); }
+  const float* values_of(Index texel) const { return of(texel) + first_value; }
 };
 
 /// Scaled colours beyond this would overflow when squared and summed.
 inline constexpr float kLargestColour = 1e15F;
 
-/// Whether a texel's values can be summed: finite, and small enough to be squared once scaled.
-inline bool is_usable(const float* colour, int channels, float scale) {
+/// Whether a texel's floats can be summed: finite, and small enough to be squared once scaled.
+inline bool is_usable(const float* colour, int fields, float scale) {
   bool usable = true;  // comparisons with NaN fail
-  for (int c = 0; c < channels; ++c) usable &= std::abs(colour[c] * scale) < kLargestColour;
+  for (int c = 0; c < fields; ++c) usable &= std::abs(colour[c] * scale) < kLargestColour;
   return usable;
 }
 

@@ -1,11 +1,14 @@
 #include "onmesh/mesh_io/write_gltf.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <bit>
 #include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -28,6 +31,15 @@ using Json = nlohmann::ordered_json;
 
 /// Bytes.
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{16} << 30;
+
+/// Device and number of a file; nothing if there is none.
+using FileNumber = std::pair<std::uintmax_t, std::uintmax_t>;
+
+std::optional<FileNumber> number_of(const fs::path& path) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0) return std::nullopt;
+  return FileNumber(found.st_dev, found.st_ino);
+}
 
 bool is_same_file(const fs::path& a, const fs::path& b) {
   std::error_code none;
@@ -124,6 +136,9 @@ class GltfWriter {
   std::set<Index> moved_images_;
   std::map<fs::path, std::string> beside_;   ///< what is written beside the file
   std::map<std::string, fs::path> targets_;  ///< where the file that a URI names goes
+  std::set<fs::path> taken_;                 ///< all those places
+  std::set<FileNumber> inputs_;              ///< the files that the source is made of
+  std::map<fs::path, int> next_;             ///< number for the next file of that name
 };
 
 void GltfWriter::replace_one(Index image, const std::string& content) {
@@ -190,20 +205,22 @@ fs::path GltfWriter::target_of(const std::string& uri) {
   const bool is_below = relative.is_relative() && *relative.begin() != ".." &&
                         decoded.find(':') == std::string::npos && relative.has_filename();
   if (!is_below) relative = fs::path(decoded).filename();
-  const std::vector<fs::path> taken = named_files();
+  if (inputs_.empty()) {
+    for (const fs::path& file : named_files())
+      if (const auto number = number_of(file)) inputs_.insert(*number);
+  }
   const auto is_free = [&](const fs::path& name) {
-    const fs::path target = folder_of(path_) / name;
-    return name != path_.filename() &&
-           std::none_of(taken.begin(), taken.end(),
-                        [&](const fs::path& file) { return is_same_file(file, target); }) &&
-           std::none_of(targets_.begin(), targets_.end(),
-                        [&](const auto& other) { return other.second == name; });
+    const auto number = number_of(folder_of(path_) / name);
+    return name != path_.filename() && !(number && inputs_.contains(*number)) &&
+           !taken_.contains(name);
   };
   const std::string name = relative.filename().string();
-  for (int k = 0; !is_free(relative); ++k) {
+  int& k = next_[relative];
+  for (; !is_free(relative); ++k) {
     relative.replace_filename(path_.stem().string() + "_" +
                               (k == 0 ? "" : std::to_string(k) + "_") + name);
   }
+  taken_.insert(relative);
   at->second = relative;
   return relative;
 }

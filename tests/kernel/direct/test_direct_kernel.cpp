@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "onmesh/kernel/radius.h"
 #include "support/flat_patch.h"
@@ -20,8 +21,11 @@ struct Reference {
 };
 
 /// The filter as DESIGN defines it, in double, over all texels of a flat patch.
-Reference brute_force(const FlatPatch& flat, const KernelOptions& options, int range_channels) {
-  const auto channels = std::size_t(flat.channels);
+/// \param features so many of the texels' first floats are compared and not averaged
+Reference brute_force(const FlatPatch& flat, const KernelOptions& options, int range_channels,
+                      int features = 0) {
+  const auto fields = std::size_t(flat.channels), first_value = std::size_t(features);
+  const std::size_t channels = fields - first_value;
   const double limit = largest_squared(options.radius);
   Reference result;
   for (const Index x : flat.target_texels) {
@@ -32,8 +36,8 @@ Reference brute_force(const FlatPatch& flat, const KernelOptions& options, int r
       if (d2 > limit) continue;
       ++result.pairs;
       double exponent = d2 / (2 * options.sigma_spatial * options.sigma_spatial);
-      const float* const own = flat.colours.data() + x * channels;
-      const float* const colour = flat.colours.data() + s.texel * channels;
+      const float* const own = flat.colours.data() + x * fields;
+      const float* const colour = flat.colours.data() + s.texel * fields;
       if (options.sigma_range > 0) {
         for (int c = 0; c < range_channels; ++c) {
           exponent += std::pow((double(colour[c]) - own[c]) / options.sigma_range, 2) / 2;
@@ -41,7 +45,7 @@ Reference brute_force(const FlatPatch& flat, const KernelOptions& options, int r
       }
       const double w = s.area * std::exp(-exponent);
       weights += w;
-      for (std::size_t c = 0; c < channels; ++c) sum[c] += w * colour[c];
+      for (std::size_t c = 0; c < channels; ++c) sum[c] += w * colour[first_value + c];
     }
     for (std::size_t c = 0; c < channels; ++c) result.values.push_back(sum[c] / weights);
   }
@@ -72,6 +76,14 @@ KernelCounts check_filter(const FlatPatch& flat, const KernelOptions& options, i
   return counts;
 }
 
+/// The first floats of every texel as features, the others as values.
+KernelInput input_with_features(const FlatPatch& flat, int features) {
+  KernelInput input = flat.input();
+  input.colours.channels = flat.channels - features;
+  input.colours.range_channels = input.colours.first_value = features;
+  return input;
+}
+
 double reach_for(double radius, double spacing) { return largest_distance(radius) + 2.6 * spacing; }
 
 TEST_CASE("on a flat patch the kernel is the plain 2D bilateral filter", "[kernel]") {
@@ -86,6 +98,26 @@ TEST_CASE("on a flat patch the kernel is the plain 2D bilateral filter", "[kerne
                                           .channels = channels,
                                           .seed = 11});
   check_filter(flat, {5, 12.5, 0.3}, channels, 130);
+}
+
+TEST_CASE("features are compared, values behind them averaged", "[kernel]") {
+  const auto [features, values] =
+      GENERATE(std::pair(1, 1), std::pair(3, 3), std::pair(3, 1), std::pair(2, 4));
+  const double sigma_range = GENERATE(0.3, 0.02);  // products, differences
+  const FlatPatch flat = make_flat_patch({.width = 72,
+                                          .height = 60,
+                                          .spacing = 6,
+                                          .core = 0.25,
+                                          .reach = reach_for(12.5, 6),
+                                          .channels = features + values,
+                                          .seed = 11});
+  const KernelOptions options{5, 12.5, sigma_range};
+  std::vector<float> out;
+  const KernelCounts counts = filter_patch(input_with_features(flat, features), options, out);
+  const Reference reference = brute_force(flat, options, features, features);
+  INFO(features << " features, " << values << " values, sigma " << sigma_range);
+  CHECK(counts.pairs == reference.pairs);
+  CHECK(psnr(out, reference.values) > 125);
 }
 
 TEST_CASE("without sigma_range the kernel is the plain 2D Gaussian filter", "[kernel]") {
@@ -247,7 +279,8 @@ TEST_CASE("faces with an unreachable corner pair exchange nothing", "[kernel]") 
   CHECK(wrong == 0);
 }
 
-TEST_CASE("colours that are not finite have no weight and stay", "[kernel]") {
+TEST_CASE("colours that are not finite have no weight; blurred, they get the mean around",
+          "[kernel]") {
   FlatPatch flat = make_flat_patch({.width = 48,
                                     .spacing = 6,
                                     .core = 0.4,
@@ -260,7 +293,8 @@ TEST_CASE("colours that are not finite have no weight and stay", "[kernel]") {
   flat.colours[infinite * 3] = -std::numeric_limits<float>::infinity();
   std::vector<float> out;
   const KernelCounts counts = filter_patch(flat.input(), options, out);
-  CHECK(counts.without_sample == 2);
+  const bool is_compared = options.sigma_range > 0;
+  CHECK(counts.without_sample == (is_compared ? 2 : 0));
 
   // The reference: the same without these samples.
   FlatPatch without = flat;
@@ -275,13 +309,33 @@ TEST_CASE("colours that are not finite have no weight and stay", "[kernel]") {
     const Index t = flat.target_texels[k];
     for (std::size_t c = 0; c < 3; ++c) {
       const float own = flat.colours[t * 3 + c];
-      if (t == nan || t == infinite) {
+      if (is_compared && (t == nan || t == infinite)) {
         CHECK((out[k * 3 + c] == own || (std::isnan(own) && std::isnan(out[k * 3 + c]))));
       } else if (std::abs(out[k * 3 + c] - reference.values[k * 3 + c]) > 1e-5) {
         FAIL_CHECK("target " << k << " channel " << c);
       }
     }
   }
+}
+
+TEST_CASE("a hot value costs others beyond the radius nothing", "[kernel]") {
+  FlatPatch flat = make_flat_patch(
+      {.width = 60, .spacing = 6, .core = 0.6, .reach = reach_for(10, 6), .channels = 1});
+  for (float& c : flat.colours) c = 0.25F + 0.001F * c;
+  const FlatPatch cold = flat;
+  const Index hot = flat.target_texels[flat.target_texels.size() / 2];
+  flat.colours[hot] = 60000;
+  const KernelOptions options{4, 10, GENERATE(0.0, 0.3)};
+  std::vector<float> out, expected;
+  filter_patch(flat.input(), options, out);
+  filter_patch(cold.input(), options, expected);
+  std::size_t beyond = 0;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    if ((flat.positions[flat.target_texels[k]] - flat.positions[hot]).norm() <= 10) continue;
+    ++beyond;
+    REQUIRE(std::abs(out[k] - expected[k]) < 1e-6F);
+  }
+  CHECK(beyond > 100);
 }
 
 TEST_CASE("a target without a sample within the radius keeps its values", "[kernel]") {

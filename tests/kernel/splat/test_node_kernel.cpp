@@ -57,6 +57,37 @@ TEST_CASE("sums on subnodes are close to direct sums", "[node_kernel]") {
   }
 }
 
+TEST_CASE("on nodes, features are compared and values behind them averaged", "[node_kernel]") {
+  // As features the smooth colours, as values their squares: what light is to codes.
+  const FlatPatch smooth = make_smooth_patch(5);
+  std::vector<float> texels;
+  for (std::size_t k = 0; k < smooth.colours.size(); k += 3) {
+    const float* const c = &smooth.colours[k];
+    texels.insert(texels.end(), {c[0], c[1], c[2], c[0] * c[0], c[1] * c[1], c[2] * c[2]});
+  }
+  KernelInput input = smooth.input();
+  input.colours = {texels.data(), 3, 3, 6, smooth.width, 3};
+  const KernelOptions options{6, 15, 0.3};
+  NodeKernel kernel(options);
+  REQUIRE(kernel.load(input));
+  kernel.choose_palette(64);
+  std::vector<float> out, support, direct;
+  kernel.evaluate(out, support);
+  filter_patch(input, options, direct);
+  double worst = 0;
+  for (std::size_t k = 0; k < out.size(); ++k)
+    worst = std::max(worst, std::abs(double(out[k]) - direct[k]));
+  CHECK(worst < 0.006);
+  // Squares of means are less than means of squares: values are no features.
+  std::vector<float> of_features;
+  input.colours = {texels.data(), 3, 3, 6, smooth.width, 0};
+  filter_patch(input, options, of_features);
+  double more = 0;
+  for (std::size_t k = 0; k < out.size(); ++k)
+    more = std::max(more, double(direct[k]) - of_features[k] * of_features[k]);
+  CHECK(more > 0.02);
+}
+
 TEST_CASE("nodes that are too coarse for sigma are refused", "[node_kernel]") {
   const FlatPatch flat = make_flat_patch({.spacing = 10});
   CHECK_FALSE(NodeKernel({0.5, 1.25, 0}).load(flat.input()));

@@ -1,5 +1,6 @@
 #include "onmesh/kernel/splat/survey.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -23,12 +24,16 @@ TEST_CASE("a survey of few samples knows all of them", "[survey]") {
   CHECK(survey.colour_scale == Approx(std::sqrt(0.5 / std::log(2.0)) / 0.25));
   REQUIRE(survey.colours.size() == 3 * (count - 1));  // all but the one that is not finite
   for (std::size_t c = 0; c < 3; ++c) {
-    double mean = 0, scaled = 0;
+    std::vector<float> values;
     for (Index k = begin; k < begin + count; ++k)
-      if (k != begin + 3) mean += flat.colours[flat.samples.samples[k].texel * 3 + c];
-    for (std::size_t k = c; k < survey.colours.size(); k += 3) scaled += survey.colours[k];
-    CHECK(survey.reference[c] == Approx(mean / (count - 1)));
-    CHECK(scaled == Approx(0).margin(1e-4));
+      if (k != begin + 3) values.push_back(flat.colours[flat.samples.samples[k].texel * 3 + c]);
+    std::sort(values.begin(), values.end());
+    CHECK(survey.reference[c] == values[values.size() / 2]);
+    // The palette's colours are counted from there.
+    float least = 1e9F;
+    for (std::size_t k = c; k < survey.colours.size(); k += 3)
+      least = std::min(least, std::abs(survey.colours[k]));
+    CHECK(least == 0);
   }
 }
 

@@ -19,7 +19,7 @@ namespace {
 /// Vectors of targets that share a neighbourhood.
 constexpr std::size_t kBlocksTogether = 16;
 
-template <int kChannels, RangeTerm kRange>
+template <class BlockSums>
 KernelCounts run_blocks(const KernelInput& input, const PatchRecords& records,
                         std::vector<float>& out) {
   KernelCounts counts;
@@ -30,43 +30,46 @@ KernelCounts run_blocks(const KernelInput& input, const PatchRecords& records,
     const std::size_t end = std::min(begin + kBlocksTogether * lanes, targets);
     near.find(begin, end - begin);
     for (std::size_t first = begin; first < end; first += lanes) {
-      counts.pairs += block.sum<kChannels, kRange>(first);
+      counts.pairs += block.sum<BlockSums>(first);
       counts.without_sample += block.write_means(input.colours, out);
     }
   }
   return counts;
 }
 
-template <int kChannels>
+template <int kChannels, Compared kCompared>
 KernelCounts run_term(const KernelInput& input, const PatchRecords& records,
                       std::vector<float>& out) {
   switch (records.range_term) {
     case RangeTerm::none:
-      return run_blocks<kChannels, RangeTerm::none>(input, records, out);
+      return run_blocks<Sums<kChannels, RangeTerm::none, kCompared>>(input, records, out);
     case RangeTerm::product:
-      return run_blocks<kChannels, RangeTerm::product>(input, records, out);
+      return run_blocks<Sums<kChannels, RangeTerm::product, kCompared>>(input, records, out);
     default:
-      return run_blocks<kChannels, RangeTerm::difference>(input, records, out);
+      return run_blocks<Sums<kChannels, RangeTerm::difference, kCompared>>(input, records, out);
+  }
+}
+
+template <Compared kCompared>
+KernelCounts run_channels(const KernelInput& input, const PatchRecords& records,
+                          std::vector<float>& out) {
+  switch (records.channels) {
+    case 1:
+      return run_term<1, kCompared>(input, records, out);
+    case 2:
+      return run_term<2, kCompared>(input, records, out);
+    case 3:
+      return run_term<3, kCompared>(input, records, out);
+    default:
+      return run_term<4, kCompared>(input, records, out);
   }
 }
 
 KernelCounts run_patch(const KernelInput& input, const PatchRecords& records,
                        std::vector<float>& out) {
-  if (records.range_channels == 0 || records.range_channels == records.channels) {
-    switch (records.channels) {
-      case 1:
-        return run_term<1>(input, records, out);
-      case 2:
-        return run_term<2>(input, records, out);
-      case 3:
-        return run_term<3>(input, records, out);
-      case 4:
-        return run_term<4>(input, records, out);
-      default:
-        break;
-    }
-  }
-  return run_blocks<0, RangeTerm::difference>(input, records, out);
+  if (!records.is_plain()) return run_blocks<AnySums>(input, records, out);
+  return records.first_value > 0 ? run_channels<Compared::features>(input, records, out)
+                                 : run_channels<Compared::values>(input, records, out);
 }
 
 const char* target_name() { return hwy::TargetName(HWY_TARGET); }

@@ -16,8 +16,8 @@ struct RecordExtremes {
 };
 
 /// Writes records, one after the other.
-/// \tparam kChannels how many there are, or 0 for any number
-template <int kChannels>
+/// \tparam kFields how many there are, or 0 for any number
+template <int kFields>
 class RecordWriter {
  public:
   /// \param largest_area of any sample
@@ -25,7 +25,8 @@ class RecordWriter {
   RecordWriter(const Colours& colours, float largest_area, PatchRecords& records)
       : colours_(colours),
         records_(records),
-        channels_(kChannels > 0 ? kChannels : records.channels),
+        fields_(kFields > 0 ? kFields : records.fields),
+        range_channels_(std::size_t(records.range_channels)),
         stride_(records.stride()),
         limit_(records.limit),
         colour_scale_(records.colour_scale),
@@ -46,7 +47,7 @@ class RecordWriter {
       // -inf or NaN where there is no area
       log_area_ = std::log2(s.area * inverse_area_) * kExponentUnit;
     }
-    if (!(log_area_ > kNoArea) || !is_usable(colour, channels_, usable_scale_)) return 0;
+    if (!(log_area_ > kNoArea) || !is_usable(colour, fields_, usable_scale_)) return 0;
     const float b0 = 1 - s.b1 - s.b2;
     const float variance =
         b0 * s.b1 * squared[0] + s.b1 * s.b2 * squared[1] + s.b2 * b0 * squared[2];
@@ -55,12 +56,10 @@ class RecordWriter {
     record_[RecordField::exponent] = variance + log_area_;
     record_[RecordField::least] = limit_ - variance;
     set_face(record_, face);
+    float* const scaled = record_ + RecordField::colour;
+    for (int c = 0; c < fields_; ++c) scaled[c] = (colour[c] - reference_[c]) * colour_scale_;
     float square = 0;
-    for (int c = 0; c < channels_; ++c) {
-      const float y = (colour[c] - reference_[c]) * colour_scale_;
-      record_[RecordField::colour + std::size_t(c)] = y;
-      square += y * y;
-    }
+    for (std::size_t c = 0; c < range_channels_; ++c) square += scaled[c] * scaled[c];
     records_.b1[count_] = s.b1;
     records_.b2[count_] = s.b2;
     records_.variance[count_] = variance;
@@ -80,8 +79,8 @@ class RecordWriter {
 
   const Colours& colours_;
   PatchRecords& records_;
-  const int channels_;
-  const std::size_t stride_;
+  const int fields_;
+  const std::size_t range_channels_, stride_;
   // As the records have them.
   const float limit_, colour_scale_, usable_scale_;
   const float* const reference_;

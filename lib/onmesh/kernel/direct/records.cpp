@@ -77,14 +77,14 @@ void make_room(std::size_t samples, PatchRecords& records) {
 }
 
 /// The records of the faces marked.
-template <int kChannels>
+template <int kFields>
 RecordExtremes gather_samples(const KernelInput& input, double variance_scale,
                               const std::vector<unsigned char>& is_needed, PatchRecords& records) {
   const Patch& patch = *input.patch;
   const Samples& sources = *input.sources;
   const Total total = count_samples(patch, sources, is_needed);
   make_room(total.count, records);
-  RecordWriter<kChannels> writer(input.colours, total.largest_area, records);
+  RecordWriter<kFields> writer(input.colours, total.largest_area, records);
   for (std::size_t local = 0; local < patch.faces.size(); ++local) {
     if (!is_needed[local]) continue;
     const Index f = patch.faces[local];
@@ -113,15 +113,15 @@ void settle_range_term(const RecordExtremes& extremes, PatchRecords& records) {
     return;
   }
   float largest = extremes.square;
-  const auto channels = std::size_t(records.channels);
-  for (std::size_t k = 0; k < records.target_colours.size(); k += channels) {
+  const auto fields = std::size_t(records.fields);
+  const auto range_channels = std::size_t(records.range_channels);
+  for (std::size_t k = 0; k < records.target_colours.size(); k += fields) {
     float own = 0;
-    for (std::size_t c = k; c < k + channels; ++c)
+    for (std::size_t c = k; c < k + range_channels; ++c)
       own += records.target_colours[c] * records.target_colours[c];
     largest = std::max(largest, own);
   }
-  const bool product = records.range_channels == records.channels && channels <= 4 &&
-                       largest <= kLargestProduct &&
+  const bool product = records.is_plain() && largest <= kLargestProduct &&
                        records.limit + extremes.log_area >= kLeastExponent;
   records.range_term = product ? RangeTerm::product : RangeTerm::difference;
   if (records.range_term != RangeTerm::product) return;
@@ -130,14 +130,15 @@ void settle_range_term(const RecordExtremes& extremes, PatchRecords& records) {
   float* record = records.records.data();
   for (std::size_t k = 0; k < count; ++k, record += stride) {
     float square = 0;
-    for (std::size_t c = RecordField::colour; c < stride; ++c) square += record[c] * record[c];
+    const float* const colour = record + RecordField::colour;
+    for (std::size_t c = 0; c < range_channels; ++c) square += colour[c] * colour[c];
     record[RecordField::exponent] -= square;
   }
   for (float& c : records.target_colours) c *= 2;
 }
 
-/// Which targets are to be filtered, per slot; those whose texels cannot be summed keep their
-/// values.
+/// Which targets are to be filtered, per slot. Those that cannot be compared with others keep their
+/// values; without a range term all get the mean.
 std::vector<unsigned char> choose_targets(const KernelInput& input, const std::vector<Index>& slots,
                                           PatchRecords& records, std::vector<float>& out) {
   const Patch& patch = *input.patch;
@@ -149,11 +150,12 @@ std::vector<unsigned char> choose_targets(const KernelInput& input, const std::v
     const Sample* const samples = targets.samples.data() + targets.face_offsets[patch.faces[f]];
     for (Index slot = slots[f]; slot < slots[f + 1]; ++slot) {
       if (input.only && !(*input.only)[slot]) continue;
-      const float* const colour = input.colours.of(samples[slot - slots[f]].texel);
-      if (is_usable(colour, records.channels, records.usable_scale)) {
+      const Index texel = samples[slot - slots[f]].texel;
+      if (records.range_channels == 0 ||
+          is_usable(input.colours.of(texel), records.fields, records.usable_scale)) {
         is_wanted[slot] = 1;
       } else {
-        std::copy_n(colour, records.channels,
+        std::copy_n(input.colours.values_of(texel), records.channels,
                     out.begin() + std::ptrdiff_t(slot) * records.channels);
         ++records.kept;
       }
@@ -162,19 +164,28 @@ std::vector<unsigned char> choose_targets(const KernelInput& input, const std::v
   return is_wanted;
 }
 
-/// Count the targets' colours from the middle of all, per channel, and scale them.
+/// About the median of every `stride`-th value that is finite; 0 if none is.
+float median_of_some(const std::vector<float>& values, std::size_t first, std::size_t stride) {
+  constexpr std::size_t kEnough = 255;
+  const std::size_t step = stride * std::max<std::size_t>(1, values.size() / stride / kEnough);
+  std::vector<float> some;
+  for (std::size_t k = first; k < values.size(); k += step) {
+    if (std::isfinite(values[k])) some.push_back(values[k]);
+  }
+  if (some.empty()) return 0;
+  const auto middle = some.begin() + std::ptrdiff_t(some.size() / 2);
+  std::nth_element(some.begin(), middle, some.end());
+  return *middle;
+}
+
+/// Count the targets' colours from the median of all, per field, and scale them.
 void centre_target_colours(PatchRecords& records) {
-  const auto channels = std::size_t(records.channels);
+  const auto fields = std::size_t(records.fields);
   std::vector<float>& colours = records.target_colours;
-  records.reference.assign(channels, 0);
-  for (std::size_t c = 0; c < channels && !records.targets.empty(); ++c) {
-    float low = colours[c], high = low;
-    for (std::size_t k = c; k < colours.size(); k += channels) {
-      low = std::min(low, colours[k]);
-      high = std::max(high, colours[k]);
-    }
-    records.reference[c] = low + (high - low) / 2;
-    for (std::size_t k = c; k < colours.size(); k += channels)
+  records.reference.assign(fields, 0);
+  for (std::size_t c = 0; c < fields; ++c) {
+    records.reference[c] = median_of_some(colours, c, fields);
+    for (std::size_t k = c; k < colours.size(); k += fields)
       colours[k] = (colours[k] - records.reference[c]) * records.colour_scale;
   }
 }
@@ -190,7 +201,7 @@ void gather_targets(const KernelInput& input, double variance_scale, PatchRecord
   records.targets.clear();
   records.targets.reserve(places.size());
   records.target_colours.clear();
-  records.target_colours.reserve(places.size() * std::size_t(records.channels));
+  records.target_colours.reserve(places.size() * std::size_t(records.fields));
   for (const auto& [face, slot] : places) {
     const Sample& s = samples.samples[samples.face_offsets[patch.faces[face]] + slot - slots[face]];
     const Vec3 a = barycentric(s);
@@ -205,7 +216,7 @@ void gather_targets(const KernelInput& input, double variance_scale, PatchRecord
     target.texel = s.texel;
     records.targets.push_back(target);
     const float* const colour = input.colours.of(s.texel);
-    records.target_colours.insert(records.target_colours.end(), colour, colour + records.channels);
+    records.target_colours.insert(records.target_colours.end(), colour, colour + records.fields);
   }
   centre_target_colours(records);
 }
@@ -214,6 +225,8 @@ void gather_targets(const KernelInput& input, double variance_scale, PatchRecord
 /// \return from squared distances to their exponents, positive
 double set_scales(const KernelInput& input, const KernelOptions& options, PatchRecords& records) {
   records.channels = input.colours.channels;
+  records.first_value = input.colours.first_value;
+  records.fields = input.colours.fields();
   const double half_log2e = 0.5 * std::numbers::log2e;
   const double scale = kExponentUnit * half_log2e / (options.sigma_spatial * options.sigma_spatial);
   records.distance_scale = static_cast<float>(-scale);
@@ -245,13 +258,15 @@ void gather_records(const KernelInput& input, const KernelOptions& options, Patc
   gather_targets(input, scale, records, out);
   const std::vector<unsigned char> is_near = find_faces_near(input, records);
   const auto gather_them = [&] {
-    switch (records.channels) {
+    switch (records.fields) {
       case 1:
         return gather_samples<1>(input, scale, is_near, records);
       case 3:
         return gather_samples<3>(input, scale, is_near, records);
       case 4:
         return gather_samples<4>(input, scale, is_near, records);
+      case 6:
+        return gather_samples<6>(input, scale, is_near, records);
       default:
         return gather_samples<0>(input, scale, is_near, records);
     }

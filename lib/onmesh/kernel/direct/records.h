@@ -28,7 +28,7 @@ struct RecordField {
     exponent,
     least,  ///< exponent at the radius, less the sample's variance: see PatchRecords::limit
     face,   ///< the bits of its face's number, see face_of()
-    colour  ///< the first of `channels` scaled values
+    colour  ///< the first of `fields` scaled floats: features apart, then values
   };
 };
 
@@ -69,26 +69,32 @@ struct PatchRecords {
   };
 
   int channels = 0, range_channels = 0;
+  int first_value = 0, fields = 0;  ///< as Colours has them
+  /// Whether there are few values, and all of them, or as many features, are compared, or none.
+  bool is_plain() const {
+    return channels <= 4 && (first_value == 0 || first_value == channels) &&
+           (range_channels == 0 || range_channels == channels);
+  }
   float distance_scale = 0;  ///< from squared distance to exponent, negative
   float colour_scale = 1;    ///< 1 for the Gaussian filter
   float usable_scale = 1;    ///< the same without the exponents' unit, for is_usable()
   RangeTerm range_term = RangeTerm::none;
-  /// Per channel, in the colours' own unit: the middle of the targets', so that equal colours are
-  /// 0.
+  /// Per field, in the colours' own unit: the targets' median, so that equal colours are 0, and
+  /// beside a single hot value all others keep their precision.
   std::vector<float> reference;
   float limit = 0;        ///< exponent at the radius
   double core_reach = 0;  ///< the radius and the longest edge of a target's face
 
   std::vector<Face> faces;
   std::vector<float> records;  ///< stride() floats each, see RecordField
-  std::size_t stride() const { return RecordField::colour + std::size_t(channels); }
+  std::size_t stride() const { return RecordField::colour + std::size_t(fields); }
   /// The records' b1, b2 and variance once more, in arrays of their own, so that a vector of
   /// samples can be looked at; padded by kLanes.
   std::vector<float> b1, b2, variance;
 
   /// In an order in which neighbours in the list lie close to each other on the surface.
   std::vector<Target> targets;
-  /// Scaled, `channels` per target; twice that if the range term is `product`.
+  /// Scaled, `fields` per target; twice that if the range term is `product`.
   std::vector<float> target_colours;
   std::size_t kept = 0;  ///< number of targets that keep their value
 };

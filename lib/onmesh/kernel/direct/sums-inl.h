@@ -40,10 +40,16 @@ struct Spatial {
   }
 };
 
+/// What the colour difference is of.
+enum class Compared {
+  values,   ///< the values that are summed
+  features  ///< as many features before them
+};
+
 /// The sums of a block: of weights, and of weighted values of up to 4 channels that all take part
-/// in the colour difference. With differences, the values are differences to the target's own
-/// colour.
-template <int kChannels, RangeTerm kRange>
+/// in the colour difference, or all of whose features do. With differences of values, those are
+/// what is summed.
+template <int kChannels, RangeTerm kRange, Compared kCompared>
 class Sums {
  public:
   /// \param own the targets' scaled colours, a vector per channel
@@ -103,6 +109,8 @@ class Sums {
         value[c] = hn::Sub(value[c], own_[c]);
         x = hn::NegMulAdd(value[c], value[c], x);
       }
+      if constexpr (kCompared == Compared::features)
+        value[c] = hn::Set(D(), record[RecordField::colour + std::size_t(kChannels + c)]);
     }
     return x;
   }
@@ -119,16 +127,18 @@ class Sums {
   V own_[kChannels], sum_[kChannels], weights_;
 };
 
-/// The same for any number of channels of which any number takes part in the colour difference.
-template <RangeTerm kRange>
-class Sums<0, kRange> {
+/// The same for any number of channels, values or features of which any number takes part in the
+/// colour difference.
+class AnySums {
  public:
   /// \param sums must be 0
-  HWY_INLINE Sums(D d, const PatchRecords& records, const float* own, float* sums)
+  HWY_INLINE AnySums(D d, const PatchRecords& records, const float* own, float* sums)
       : own_(own),
         sums_(sums),
         channels_(std::size_t(records.channels)),
         range_channels_(std::size_t(records.range_channels)),
+        first_value_(std::size_t(records.first_value)),
+        sums_differences_(records.range_term == RangeTerm::difference && first_value_ == 0),
         limit_(hn::Set(d, records.limit)) {}
 
   HWY_INLINE void add_sure(D d, const FaceExponents<V>& e, const float* HWY_RESTRICT record) {
@@ -149,11 +159,10 @@ class Sums<0, kRange> {
     }
     const V w = hn::IfThenElseZero(spatial.inside, exp2_of_any_units(d, x));
     hn::Store(hn::Add(hn::Load(d, sums_), w), d, sums_);
-    const V differences = hn::Set(d, range_channels_ > 0 ? 1.0F : 0.0F);
     for (std::size_t c = 0; c < channels_; ++c) {
-      const V reference = hn::Mul(differences, hn::Load(d, own_ + c * lanes));
       float* const sum = sums_ + (c + 1) * lanes;
-      const V value = hn::Sub(hn::Set(d, colour[c]), reference);
+      V value = hn::Set(d, colour[first_value_ + c]);
+      if (sums_differences_) value = hn::Sub(value, hn::Load(d, own_ + c * lanes));
       hn::Store(hn::MulAdd(w, value, hn::Load(d, sum)), d, sum);
     }
     return hn::CountTrue(d, spatial.inside);
@@ -164,7 +173,8 @@ class Sums<0, kRange> {
  private:
   const float* const own_;
   float* const sums_;
-  const std::size_t channels_, range_channels_;
+  const std::size_t channels_, range_channels_, first_value_;
+  const bool sums_differences_;
   const V limit_;
 };
 

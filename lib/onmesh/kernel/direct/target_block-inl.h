@@ -36,8 +36,9 @@ class TargetBlock {
         near_(near),
         lanes_(hn::Lanes(d_)),
         channels_(std::size_t(records.channels)),
+        fields_(std::size_t(records.fields)),
         barycentric_(hwy::AllocateAligned<float>(3 * lanes_ * lanes_)),
-        own_(hwy::AllocateAligned<float>(channels_ * lanes_)),
+        own_(hwy::AllocateAligned<float>(fields_ * lanes_)),
         node_exponents_(hwy::AllocateAligned<float>(table_.columns * lanes_)),
         most_(table_.columns),
         least_(table_.columns),
@@ -47,13 +48,13 @@ class TargetBlock {
 
   /// Sum over all samples in the neighbourhood for the targets from `first` on.
   /// \return number of pairs within the radius
-  template <int kChannels, RangeTerm kRange>
+  template <class BlockSums>
   std::uint64_t sum(std::size_t first) {
     load_targets(first);
     compute_node_exponents();
     list_near_faces();
     list_hits();
-    return sum_hits<kChannels, kRange>();
+    return sum_hits<BlockSums>();
   }
 
   /// Divide the sums by the weights.
@@ -82,7 +83,7 @@ class TargetBlock {
   void list_hits();
   /// Sum over the samples listed.
   /// \return number of pairs within the radius
-  template <int kChannels, RangeTerm kRange>
+  template <class BlockSums>
   std::uint64_t sum_hits();
 
   // Their parts.
@@ -103,7 +104,7 @@ class TargetBlock {
   const DistanceTable& table_;
   const PatchRecords& records_;
   const Neighbourhood& near_;
-  const std::size_t lanes_, channels_;
+  const std::size_t lanes_, channels_, fields_;
 
   // Of the targets.
   std::size_t used_ = 0;  ///< lanes
@@ -112,7 +113,7 @@ class TargetBlock {
   /// Per corner, a vector: its scaled barycentric coordinate in each lane's target (0 where it is
   /// no corner).
   hwy::AlignedFreeUniquePtr<float[]> barycentric_;
-  hwy::AlignedFreeUniquePtr<float[]> own_;  ///< scaled colours: a vector per channel
+  hwy::AlignedFreeUniquePtr<float[]> own_;  ///< scaled colours: a vector per field
   HWY_ALIGN float variance_[hn::MaxLanes(D())] = {};
 
   // Per node of the neighbourhood.
@@ -136,7 +137,7 @@ inline void TargetBlock::load_targets(std::size_t first) {
   targets_ = records_.targets.data() + first;
   corners_.clear();
   std::fill_n(barycentric_.get(), 3 * lanes_ * lanes_, 0.0F);
-  std::fill_n(own_.get(), channels_ * lanes_, 0.0F);
+  std::fill_n(own_.get(), fields_ * lanes_, 0.0F);
   std::fill_n(sums_.get(), (channels_ + 1) * lanes_, 0.0F);
   std::fill_n(variance_, lanes_, kNever);
   for (std::size_t lane = 0; lane < used_; ++lane) {
@@ -148,8 +149,8 @@ inline void TargetBlock::load_targets(std::size_t first) {
       barycentric_[corner * lanes_ + lane] +=
           targets_[lane].barycentric[i] * records_.distance_scale;
     }
-    for (std::size_t c = 0; c < channels_; ++c) {
-      own_[c * lanes_ + lane] = records_.target_colours[(first + lane) * channels_ + c];
+    for (std::size_t c = 0; c < fields_; ++c) {
+      own_[c * lanes_ + lane] = records_.target_colours[(first + lane) * fields_ + c];
     }
   }
 }
@@ -256,9 +257,9 @@ inline M TargetBlock::unreachable_lanes(const Neighbourhood::Face& face) const {
   return hn::Gt(hn::Load(d_, is_apart), hn::Zero(d_));
 }
 
-template <int kChannels, RangeTerm kRange>
+template <class BlockSums>
 HWY_INLINE std::uint64_t TargetBlock::sum_hits() {
-  Sums<kChannels, kRange> sums(d_, records_, own_.get(), sums_.get());
+  BlockSums sums(d_, records_, own_.get(), sums_.get());
   const float* const records = records_.records.data();
   std::uint64_t pairs = hits_.sure.count * lanes_;
   for (std::size_t k = 0; k < hits_.sure.count; ++k) {
@@ -280,16 +281,18 @@ HWY_INLINE std::uint64_t TargetBlock::sum_hits() {
 inline std::uint64_t TargetBlock::write_means(const Colours& colours,
                                               std::vector<float>& out) const {
   std::uint64_t kept = 0;
-  const bool differences = records_.range_term == RangeTerm::difference;
+  const bool differences =
+      records_.range_term == RangeTerm::difference && records_.first_value == 0;
+  const float* const reference = records_.reference.data() + records_.first_value;
   for (std::size_t lane = 0; lane < used_; ++lane) {
     const PatchRecords::Target& target = targets_[lane];
-    const float* const own = colours.of(target.texel);
+    const float* const own = colours.values_of(target.texel);
     float* const result = out.data() + std::size_t(target.slot) * channels_;
     const double weight = sums_[lane];
     const bool nothing = !(weight > kNothing);
     for (std::size_t c = 0; c < channels_; ++c) {
       const double mean = sums_[(c + 1) * lanes_ + lane] / (weight * records_.colour_scale);
-      const double value = (differences ? own[c] : records_.reference[c]) + mean;
+      const double value = (differences ? own[c] : reference[c]) + mean;
       result[c] = nothing ? own[c] : static_cast<float>(value);
     }
     kept += nothing;

@@ -28,14 +28,14 @@ struct Chunk {
   std::size_t count = 0;
   std::array<Array, 3> corners;  ///< barycentric coordinates in the part
   Array weights;  ///< area relative to the patch's largest; 0 if the sample must not count
-  std::vector<Array> colours;  ///< per channel, scaled; 0 if the sample must not count
+  std::vector<Array> colours;  ///< per field, scaled; 0 if the sample must not count
 
   /// \param numbers of the `n` samples among those of the face
   void load(const Survey& survey, const Colours& texels, const FacePart& part,
             const Sample* samples, const Index* numbers, std::size_t n) {
     count = n;
-    colours.resize(std::size_t(survey.channels));
-    switch (survey.channels) {
+    colours.resize(std::size_t(survey.fields));
+    switch (survey.fields) {
       case 1:
         copy<1>(texels, samples, numbers);
         break;
@@ -45,6 +45,9 @@ struct Chunk {
       case 4:
         copy<4>(texels, samples, numbers);
         break;
+      case 6:
+        copy<6>(texels, samples, numbers);
+        break;
       default:
         copy<0>(texels, samples, numbers);
     }
@@ -52,16 +55,16 @@ struct Chunk {
   }
 
  private:
-  template <int kChannels>
+  template <int kFields>
   void copy(const Colours& texels, const Sample* samples, const Index* numbers) {
-    const std::size_t channels = kChannels > 0 ? kChannels : colours.size();
+    const std::size_t fields = kFields > 0 ? kFields : colours.size();
     for (std::size_t i = 0; i < count; ++i) {
       const Sample& s = samples[numbers[i]];
       const float* const colour = texels.of(s.texel);
       corners[1][i] = s.b1;
       corners[2][i] = s.b2;
       weights[i] = s.area;
-      for (std::size_t c = 0; c < channels; ++c) colours[c][i] = colour[c];
+      for (std::size_t c = 0; c < fields; ++c) colours[c][i] = colour[c];
     }
     const std::size_t padded = padded_to_lanes(count);
     const auto pad = [&](Array& a) { std::fill(a.begin() + count, a.begin() + padded, 0.0F); };

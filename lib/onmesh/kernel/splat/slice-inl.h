@@ -158,9 +158,10 @@ class Slice {
     const V support = hn::Max(hn::Mul(represented, plain), hn::Min(plain, not_little));
     hn::StoreU(hn::IfThenElseZero(is_filtered, support), d, sums);
     const V inverse = hn::Div(hn::Set(d, 1), hn::Mul(sum, hn::Set(d, s_.survey.colour_scale)));
+    const float* const reference = s_.survey.reference.data() + s_.survey.first_value;
     for (std::size_t c = 0; c + 1 < results_.size(); ++c) {
       float* const at = &results_[1 + c][first];
-      hn::StoreU(hn::MulAdd(hn::LoadU(d, at), inverse, hn::Set(d, s_.survey.reference[c])), d, at);
+      hn::StoreU(hn::MulAdd(hn::LoadU(d, at), inverse, hn::Set(d, reference[c])), d, at);
     }
   }
 
@@ -175,7 +176,7 @@ class Slice {
       if (support[slot] > 0) {
         for (std::size_t c = 0; c < channels; ++c) to[c] = results_[1 + c][i];
       } else {
-        std::copy_n(s_.input.colours.of(samples[numbers[i]].texel), channels, to);
+        std::copy_n(s_.input.colours.values_of(samples[numbers[i]].texel), channels, to);
       }
     }
   }

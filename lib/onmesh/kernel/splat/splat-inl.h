@@ -61,13 +61,15 @@ class Splat {
   /// What the samples add at their corners: their weights, and their colours times those.
   void weigh(const Chunk& chunk) {
     const D d;
+    const auto values = std::size_t(s_.survey.channels);
+    const auto first_value = std::size_t(s_.survey.first_value);
     for (std::size_t i = 0; i < chunk.count; i += hn::Lanes(d)) {
       const V weight = hn::LoadU(d, &chunk.weights[i]);
       for (std::size_t corner = 0; corner < 3; ++corner) {
         const V share = hn::Mul(hn::LoadU(d, &chunk.corners[corner][i]), weight);
         hn::StoreU(share, d, &planes_[corner][i]);
-        for (std::size_t c = 0; c < chunk.colours.size(); ++c) {
-          hn::StoreU(hn::Mul(share, hn::LoadU(d, &chunk.colours[c][i])), d,
+        for (std::size_t c = 0; c < values; ++c) {
+          hn::StoreU(hn::Mul(share, hn::LoadU(d, &chunk.colours[first_value + c][i])), d,
                      &planes_[3 * (c + 1) + corner][i]);
         }
       }

@@ -45,6 +45,8 @@ void survey_samples(const KernelInput& input, const KernelOptions& options,
                     const std::vector<unsigned char>& is_read, Survey& survey) {
   const Colours& colours = input.colours;
   survey.channels = colours.channels;
+  survey.first_value = colours.first_value;
+  survey.fields = colours.fields();
   survey.range_channels = 0;
   survey.colour_scale = 1;
   if (options.sigma_range > 0) {
@@ -53,8 +55,7 @@ void survey_samples(const KernelInput& input, const KernelOptions& options,
   }
 
   float largest = 0;
-  double count = 0;
-  std::vector<double> sum(std::size_t(survey.channels), 0);
+  std::vector<std::vector<float>> values(std::size_t(survey.fields));  // per field
   survey.colours.clear();
   const std::vector<const Sample*> some = choose_some(input, is_read);
   // They are all over memory; none should be waited for by itself.
@@ -63,15 +64,18 @@ void survey_samples(const KernelInput& input, const KernelOptions& options,
   for (const Sample* s : some) {
     largest = std::max(largest, s->area);
     const float* const colour = colours.of(s->texel);
-    if (!is_usable(colour, survey.channels, survey.colour_scale)) continue;
-    for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += colour[c];
-    ++count;
+    if (!is_usable(colour, survey.fields, survey.colour_scale)) continue;
+    for (std::size_t c = 0; c < values.size(); ++c) values[c].push_back(colour[c]);
     survey.colours.insert(survey.colours.end(), colour, colour + survey.range_channels);
   }
   survey.inverse_area = largest > 0 ? 1 / largest : 0;
-  survey.reference.resize(sum.size());
-  for (std::size_t c = 0; c < sum.size(); ++c)
-    survey.reference[c] = count > 0 ? float(sum[c] / count) : 0;
+  // A single hot value must not cost the others their precision.
+  survey.reference.assign(values.size(), 0);
+  for (std::size_t c = 0; c < values.size() && !values[c].empty(); ++c) {
+    const auto middle = values[c].begin() + std::ptrdiff_t(values[c].size() / 2);
+    std::nth_element(values[c].begin(), middle, values[c].end());
+    survey.reference[c] = *middle;
+  }
   for (std::size_t k = 0; k < survey.colours.size(); ++k) {
     const float reference = survey.reference[k % std::size_t(survey.range_channels)];
     survey.colours[k] = (survey.colours[k] - reference) * survey.colour_scale;

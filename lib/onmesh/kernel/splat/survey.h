@@ -12,8 +12,9 @@ namespace onmesh {
 /// from `reference`, so that little is lost where all are alike.
 struct Survey {
   int channels = 0, range_channels = 0;
+  int first_value = 0, fields = 0;  ///< as Colours has them
   float colour_scale = 1;
-  std::vector<float> reference;  ///< per channel, in the colours' own unit
+  std::vector<float> reference;  ///< per field, in the colours' own unit: about the median
   float inverse_area = 0;        ///< 1 / (about the largest sample's); 0 if none has any
   std::vector<float> colours;    ///< some of the samples' scaled colours, `range_channels` each
 

@@ -143,9 +143,9 @@ template <class Out>
 std::vector<Out> read_elements(GltfFile& file, const GltfAccessor& accessor) {
   const auto components = std::size_t(accessor.components);
   const std::size_t size = size_of(accessor.type) * components;
-  // Before anything is multiplied: what does not lie in a buffer view may be any number.
-  file.take_memory(double(accessor.count) * double(components * sizeof(Out)), accessor.place);
+  // Its buffer counts for what may be made of it. What does not lie in one may be any number.
   const Elements elements = find_elements(file, accessor.place, accessor.count, size);
+  file.take_memory(double(accessor.count) * double(components * sizeof(Out)), accessor.place);
   std::vector<Out> values(accessor.count * components);
   if (elements.first != nullptr) {
     convert<Out>(accessor, elements, accessor.count,
@@ -186,6 +186,7 @@ std::vector<double> read_numbers(GltfFile& file, Index accessor, int components)
     found.place.at("type").fail("should have " + std::to_string(components) +
                                 " numbers per element");
   }
+  if (found.type == GltfType::u32) found.place.at("componentType").fail("is one of indices only");
   return read_elements<double>(file, found);
 }
 

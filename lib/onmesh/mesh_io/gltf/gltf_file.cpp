@@ -191,9 +191,11 @@ std::string_view GltfFile::buffer(Index i) {
     if (chunks_.size() < 2 || chunks_[1].type != kGlbBin) place.fail("the GLB has no binary chunk");
     bytes = chunks_[1].bytes;
   } else {
-    const auto [at, is_new] = buffers_.try_emplace(i);
+    // Several buffers may be one file.
+    const JsonPlace uri = place.at("uri");
+    const auto [at, is_new] = buffers_.try_emplace(
+        is_data_uri(uri.text()) ? std::to_string(i) : "file " + file_of(uri).string());
     if (is_new) {
-      const JsonPlace uri = place.at("uri");
       at->second = content_of(uri);
       memory_left_ += kMostPerByte * double(at->second.size());
     }
@@ -223,10 +225,11 @@ std::string_view GltfFile::view(Index i) {
   if (!packed) return part_of_buffer(place);
   const auto [at, is_new] = views_.try_emplace(i);
   if (is_new) {
+    const std::string_view part = part_of_buffer(*packed);
     take_memory(double(packed->at("count").whole_number()) *
                     double(packed->at("byteStride").whole_number()),
                 *packed);
-    at->second = unpack_meshopt(part_of_buffer(*packed), *packed);
+    at->second = unpack_meshopt(part, *packed);
   }
   return at->second;
 }

@@ -85,8 +85,8 @@ class GltfFile {
   std::string_view json_text_;
   std::vector<GlbChunk> chunks_;
   nlohmann::json json_;
-  std::map<Index, std::string> buffers_;  ///< those that are not in the GLB
-  std::map<Index, std::string> views_;    ///< those that were decompressed
+  std::map<std::string, std::string> buffers_;  ///< those that are not in the GLB, by their place
+  std::map<Index, std::string> views_;          ///< those that were decompressed
   double memory_left_ = 0;
 };
 

@@ -1,5 +1,6 @@
 #include "onmesh/mesh_io/gltf/images.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
@@ -42,14 +43,24 @@ std::string as_file_name(const std::string& name) {
   return result == "." || result == ".." ? "_" : result;
 }
 
+/// What the first bytes say, whatever the type given: exporters give wrong ones.
+std::string extension_by_content(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG")) return ".png";
+  if (bytes.starts_with("\xFF\xD8\xFF")) return ".jpg";
+  if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return ".webp";
+  return {};
+}
+
 /// The name of an image inside the file, with an extension.
-std::string own_name(const JsonPlace& image, Index number) {
+/// \param first_bytes of the image
+std::string own_name(const JsonPlace& image, Index number, std::string_view first_bytes) {
   std::string name = as_file_name(image.text("name"));
   if (name.empty()) name = "image" + std::to_string(number);
   std::string mime_type = image.text("mimeType");
   if (const auto uri = image.find("uri"); mime_type.empty() && uri)
     mime_type = uri->text().substr(5, uri->text().find_first_of(";,") - 5);
-  std::string extension = extension_of(mime_type);
+  std::string extension = extension_by_content(first_bytes);
+  if (extension.empty()) extension = extension_of(mime_type);
   if (extension.empty()) extension = ".png";
   const std::string found = lower_case(std::filesystem::path(name).extension().string());
   const bool has_one = found == extension || (found == ".jpeg" && extension == ".jpg");
@@ -79,12 +90,14 @@ GltfImages::GltfImages(GltfFile& file) : file_(file) {
   const std::size_t views = file.root().size_of("bufferViews");
   std::set<std::string> taken;
   std::map<Index, Index> first_of_view;  // several images may be one
+  std::map<std::string, Index> next;     // number for the next image of that name
   for (Index i = 0; i < count; ++i) {
     const JsonPlace image = file.element("images", i);
     const auto uri = image.find("uri");
     if (uri && !is_data_uri(uri->text())) {
       places_.push_back(GltfImagePlace::file);
       names_.push_back(file.file_of(*uri).string());
+      same_.push_back(i);
       continue;
     }
     places_.push_back(uri ? GltfImagePlace::data_uri : GltfImagePlace::buffer_view);
@@ -92,20 +105,38 @@ GltfImages::GltfImages(GltfFile& file) : file_(file) {
       const auto [first, is_new] = first_of_view.try_emplace(image.index("bufferView", views), i);
       if (!is_new) {
         names_.push_back(std::string(names_[first->second]));
+        same_.push_back(first->second);
         continue;
       }
     }
-    const std::filesystem::path plain = own_name(image, i);
+    const std::filesystem::path plain = own_name(image, i, first_bytes(i));
     std::string name = plain.string();
-    for (Index k = i; !taken.insert(lower_case(name)).second; ++k)
-      name = plain.stem().string() + "_" + std::to_string(k) + plain.extension().string();
+    Index& number = next[lower_case(name)];
+    number = std::max(number, i);
+    while (!taken.insert(lower_case(name)).second)
+      name = plain.stem().string() + "_" + std::to_string(number++) + plain.extension().string();
     names_.push_back((file.path() / name).string());
+    same_.push_back(i);
   }
   contents_.resize(count);
 }
 
+std::string GltfImages::first_bytes(Index image) {
+  constexpr std::size_t kEnough = 12;
+  const JsonPlace place = file_.element("images", image);
+  if (places_[image] == GltfImagePlace::buffer_view) {
+    const Index view = place.index("bufferView", file_.root().size_of("bufferViews"));
+    return std::string(file_.view(view).substr(0, kEnough));
+  }
+  const std::string& uri = place.at("uri").text();
+  const std::size_t comma = uri.find(',');
+  const std::string start = uri.substr(0, comma == std::string::npos ? comma : comma + 17);
+  return data_of_uri(start).value_or("");  // a damaged one is found out when it is read
+}
+
 std::shared_ptr<const std::string> GltfImages::content(Index image) {
   if (places_[image] == GltfImagePlace::file) return nullptr;
+  image = same_[image];
   std::shared_ptr<const std::string>& content = contents_[image];
   if (content) return content;
   const JsonPlace place = file_.element("images", image);

@@ -28,7 +28,11 @@ class GltfImages {
   std::shared_ptr<const std::string> content(Index image);
 
  private:
+  /// Of an image inside this file, as many as tell its format.
+  std::string first_bytes(Index image);
+
   GltfFile& file_;
+  std::vector<Index> same_;  ///< the first image with the same content
   std::vector<GltfImagePlace> places_;
   std::vector<std::string> names_;
   std::vector<std::shared_ptr<const std::string>> contents_;

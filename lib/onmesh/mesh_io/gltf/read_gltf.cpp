@@ -94,7 +94,7 @@ class GltfReader {
   std::optional<Part> read_part(const JsonPlace& primitive);
   void read_plain(const JsonPlace& primitive, std::uint64_t mode, Part& part);
   void read_draco(const JsonPlace& primitive, const JsonPlace& packed, Part& part);
-  std::optional<Index> uv_accessor(const JsonPlace& primitive, Index material) const;
+  std::optional<Index> uv_accessor(const JsonPlace& primitive, Index material);
   std::vector<Vec2> place_uvs(const std::vector<double>& stored, Index material);
   void note_attributes(const JsonPlace& primitive);
   void append(Part& part, const Eigen::Matrix4d& to_world, const JsonPlace& mesh);
@@ -109,6 +109,8 @@ class GltfReader {
   std::vector<SlotUvs> slots_;  ///< per material
   std::map<std::string, std::size_t> read_counts_, ignored_counts_;
   std::size_t missing_uvs_ = 0;
+  std::size_t lost_uvs_ = 0;    ///< primitives without the coordinates that their texture is for
+  std::string first_lost_uvs_;  ///< the first of them
 };
 
 std::optional<JsonPlace> GltfReader::slot_texture(const JsonPlace& material) const {
@@ -175,14 +177,12 @@ void GltfReader::read_materials() {
   }
 }
 
-std::optional<Index> GltfReader::uv_accessor(const JsonPlace& primitive, Index material) const {
+std::optional<Index> GltfReader::uv_accessor(const JsonPlace& primitive, Index material) {
   const std::uint64_t set = material != kNone ? slots_[material].set : options_.uv_set.value_or(0);
   const std::string name = "TEXCOORD_" + std::to_string(set);
   const auto found = primitive.at("attributes").find_index(name.c_str(), accessors_);
-  if (!found && material != kNone && slots_[material].has_texture) {
-    report_.warnings.push_back(file_.name() + ": " + primitive.path() + ": has no " + name +
-                               ", which its texture is for");
-  }
+  const bool is_lost = !found && material != kNone && slots_[material].has_texture;
+  if (is_lost && lost_uvs_++ == 0) first_lost_uvs_ = primitive.path() + ": has no " + name;
   return found;
 }
 
@@ -388,6 +388,12 @@ TriangleMesh GltfReader::run() {
     if (!uv.allFinite()) uv.setZero();
   }
   report_counts();
+  if (lost_uvs_ > 0) {
+    report_.warnings.push_back(
+        file_.name() + ": " + first_lost_uvs_ + ", which its texture is for" +
+        (lost_uvs_ == 1 ? std::string()
+                        : "; neither have " + std::to_string(lost_uvs_ - 1) + " other primitives"));
+  }
   if (out_.faces.empty()) throw InputError(file_.name() + ": has no triangles");
   return std::move(out_);
 }

@@ -104,11 +104,11 @@ Matrix4d SceneWalk::bind_matrix(const JsonPlace& skin) {
   if (bound && numbers.size() < 16 * joints.size())
     skin.at("inverseBindMatrices").fail("has fewer matrices than there are joints");
   const auto placed = [&](std::size_t i) -> Matrix4d {
-    const Matrix4d joint = to_world_[joints[i]].value_or(Matrix4d::Identity());
+    Matrix4d joint = to_world_[joints[i]].value_or(Matrix4d::Identity());
     if (!bound) return joint;
     return joint * Eigen::Map<const Matrix4d>(numbers.data() + 16 * i);
   };
-  const Matrix4d first = placed(0);
+  Matrix4d first = placed(0);
   std::size_t moved = 0;
   for (std::size_t i = 1; i < joints.size(); ++i)
     moved += (placed(i) - first).norm() > 1e-3 * first.norm() ? 1 : 0;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "onmesh/base/text.h"
+
 namespace onmesh {
 namespace {
 
@@ -27,7 +29,20 @@ int hex_value(char c) {
   return -1;
 }
 
+constexpr std::string_view kBase64 = ";base64";
+
+/// What stands before the comma of a data URI.
+bool is_base64(std::string_view kind) {
+  return kind.size() >= kBase64.size() &&
+         lower_case(kind.substr(kind.size() - kBase64.size())) == kBase64;
+}
+
 }  // namespace
+
+// Schemes are written in any case of letters (RFC 3986, section 3.1).
+bool is_data_uri(std::string_view uri) {
+  return lower_case(uri.substr(0, 5)) == "data:";
+}
 
 std::string to_base64(std::string_view bytes) {
   std::string text;
@@ -100,14 +115,13 @@ std::string percent_encoded(std::string_view path) {
 std::optional<std::string> data_of_uri(std::string_view uri) {
   const std::size_t comma = uri.find(',');
   if (!is_data_uri(uri) || comma == std::string_view::npos) return std::nullopt;
-  const std::string_view data = uri.substr(comma + 1);
-  if (!uri.substr(0, comma).ends_with(";base64")) return percent_decoded(data);
-  return from_base64(data);
+  const std::string data = percent_decoded(uri.substr(comma + 1));
+  return is_base64(uri.substr(0, comma)) ? from_base64(data) : data;
 }
 
 std::string with_data(std::string_view uri, std::string_view bytes) {
   std::string_view kind = uri.substr(0, uri.find(','));
-  if (kind.ends_with(";base64")) kind.remove_suffix(7);
+  if (is_base64(kind)) kind.remove_suffix(kBase64.size());
   return std::string(kind) + ";base64," + to_base64(bytes);
 }
 

@@ -21,7 +21,7 @@ std::string percent_decoded(std::string_view text);
 std::string percent_encoded(std::string_view path);
 
 /// Whether the URI holds its data (RFC 2397).
-inline bool is_data_uri(std::string_view uri) { return uri.starts_with("data:"); }
+bool is_data_uri(std::string_view uri);
 
 /// The data of such a URI; nothing if it is damaged.
 std::optional<std::string> data_of_uri(std::string_view uri);

@@ -1,0 +1,31 @@
+// What the range weight compares: features of the texels' colours.
+#pragma once
+
+#include <cstddef>
+
+#include "onmesh/filter/options.h"
+
+namespace onmesh {
+
+/// Features in a range space. As many as channels.
+class RangeFeatures {
+ public:
+  /// \param mean_light log-average of the surface's luminance, > 0; for RangeSpace::log
+  /// \pre three channels for RangeSpace::oklab
+  RangeFeatures(RangeSpace space, int channels, double mean_light);
+
+  /// \param codes straight, as the file has them
+  /// \param light the same colour in linear light
+  void of(const float* codes, const float* light, float* features) const;
+
+ private:
+  RangeSpace space_;
+  int channels_;
+  float log_scale_;
+};
+
+/// Rec. 709 luminance of linear light; the value itself of one channel, the mean of two or more
+/// than three.
+double luminance(const float* light, int channels);
+
+}  // namespace onmesh

@@ -1,0 +1,74 @@
+// What the codes of an image mean as light.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "onmesh/image/image.h"
+
+namespace onmesh {
+
+/// The transfer function of an image's codes: to amounts of light, and back. Only these can be
+/// averaged; primaries do not matter for that. Channels are converted one by one, unless an
+/// OpenColorIO configuration says otherwise.
+class ColourSpace {
+ public:
+  virtual ~ColourSpace() = default;
+
+  /// From codes to linear light, in place.
+  /// \param values `channels` values for each of `texels` texels
+  virtual void to_linear(float* values, std::size_t texels, int channels) const = 0;
+  /// The inverse. Codes of integer files are not rounded.
+  virtual void from_linear(float* values, std::size_t texels, int channels) const = 0;
+
+  /// Whether each channel is converted by itself: then codes of few levels can have a table.
+  virtual bool is_per_channel() const { return true; }
+
+  const std::string& name() const { return name_; }
+
+ protected:
+  explicit ColourSpace(std::string name) : name_(std::move(name)) {}
+
+ private:
+  std::string name_;
+};
+
+/// The colour space of a name, in any case of letters: "sRGB" (IEC 61966-2-1), "Rec709" (ITU-R
+/// BT.709), "GammaX" for a power of X, such as "Gamma2.2". If $OCIO names a configuration, its
+/// colour spaces and roles come first.
+/// \return null for "linear", "raw" and "data", whose codes are averaged as they are
+/// \throw InputError if it is unknown
+std::shared_ptr<const ColourSpace> find_colour_space(std::string_view name);
+
+/// Where a choice of colour space came from.
+struct ColourSpaceChoice {
+  std::shared_ptr<const ColourSpace> space;  ///< null: codes are averaged as they are
+  std::string name;                          ///< "sRGB", "linear", "raw", "data", ...
+  std::string reason;
+  bool has_no_alpha = false;  ///< said to be numbers: a fourth channel is one like the others
+};
+
+/// What was said about an image's colour space.
+struct ColourSpaceRequest {
+  enum class Role { unknown, colour, data };
+  Role role = Role::unknown;
+  std::string name;             ///< --colorspace; empty = nothing
+  bool slot_is_data = false;    ///< a glTF slot that holds numbers
+  bool slot_is_colour = false;  ///< a glTF slot that holds colours, which are sRGB
+};
+
+/// The colour space of an image: by the role; else the name given; else the glTF slot; else one or
+/// two channels are data; else the file's tag; else integers are sRGB and floats linear. The role
+/// `colour` leaves out what says data.
+/// \throw InputError as find_colour_space()
+ColourSpaceChoice choose_colour_space(const Image& image, const ColourSpaceRequest& request);
+
+/// How many levels above 0 the codes of the image's file have: 255 or 65535; 0 = other than that.
+int levels_of(const Image& image);
+
+/// Whether the file holds colours that are multiplied with alpha: EXR, and TIFF that says so.
+bool is_premultiplied(const Image& image);
+
+}  // namespace onmesh
