@@ -107,10 +107,13 @@ void WorkingValues::convert() {
     const Image& image = *tile.image;
     const auto texels = std::size_t(image.width) * std::size_t(image.height);
     const std::vector<float> table = table_of_codes(tile);
+    const Coverage* const coverage =
+        map_.coverage.data() + std::size_t(to - packed_.data()) / stride;
     const float levels = table.empty() ? 0 : float(table.size() - 1);
     over_blocks(texels, [&](std::size_t begin, std::size_t end) {
       if (!table.empty()) {
         for (std::size_t t = begin; t < end; ++t) {
+          if (coverage[t] == Coverage::none) continue;  // nobody reads those
           const float* const from = image.texel(Index(t));
           float* const texel = to + t * stride;
           for (std::size_t c = 0; c < channels; ++c) {
@@ -144,6 +147,7 @@ void WorkingValues::convert() {
   over_blocks(textures_.values().size(), [&](std::size_t begin, std::size_t end) {
     std::vector<float> result(channels);
     for (std::size_t t = begin; t < end; ++t) {
+      if (map_.coverage[t] == Coverage::none) continue;
       float* const texel = packed_.data() + t * stride;
       features.of(texel, texel + first_value, result.data());
       std::copy_n(result.data(), channels, texel);
@@ -230,10 +234,11 @@ void WorkingValues::encode_some(const std::vector<Index>& texels, const TextureT
   for (const Index t : texels) {
     const float *const before = colours_.values_of(t), *const own = codes[t];
     float* const out = values[t];
-    bool is_same = true;
+    bool is_same = map_.coverage[t] == Coverage::covered;
     for (std::size_t c = 0; c < channels; ++c) {
       const float value = out[channels_[c]];
-      is_same &= value == before[c] || (std::isnan(value) && std::isnan(before[c]));
+      if (!is_same) break;
+      is_same = value == before[c] || (std::isnan(value) && std::isnan(before[c]));
     }
     const float alpha = tile.premultiplied && own[alpha_channel] > 0 ? own[alpha_channel] : 1;
     for (const int c : channels_) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "onmesh/atlas/texel_map.h"
+#include "onmesh/base/large_array.h"
 #include "onmesh/filter/options.h"
 #include "onmesh/filter/surface_textures.h"
 #include "onmesh/kernel/kernel_input.h"
@@ -52,7 +53,7 @@ class WorkingValues {
   const ColourSpace* space_ = nullptr;  ///< of the first tile that has one
   std::vector<int> channels_;           ///< of the images, those that are filtered
   bool is_converted_ = false;           ///< else the codes are the values
-  std::vector<float> packed_;
+  LargeArray<float> packed_;
   Colours colours_;
   std::uint64_t missing_ = 0, emission_ = 0;
 };

@@ -26,9 +26,11 @@ class ColourSpace {
   /// Whether each channel is converted by itself: then codes of few levels can have a table.
   virtual bool is_per_channel() const { return true; }
 
+  /// As find_colour_space() knows it.
   const std::string& name() const { return name_; }
 
  protected:
+  /// \param name for people
   explicit ColourSpace(std::string name) : name_(std::move(name)) {}
 
  private:
@@ -46,14 +48,19 @@ std::shared_ptr<const ColourSpace> find_colour_space(std::string_view name);
 struct ColourSpaceChoice {
   std::shared_ptr<const ColourSpace> space;  ///< null: codes are averaged as they are
   std::string name;                          ///< "sRGB", "linear", "raw", "data", ...
-  std::string reason;
+  std::string reason;                        ///< for people
   bool has_no_alpha = false;  ///< said to be numbers: a fourth channel is one like the others
 };
 
 /// What was said about an image's colour space.
 struct ColourSpaceRequest {
-  enum class Role { unknown, colour, data };
-  Role role = Role::unknown;
+  /// What a texture is for, as far as it was said.
+  enum class Role {
+    unknown,  ///< nothing was said
+    colour,   ///< amounts of light, in whatever space
+    data      ///< numbers
+  };
+  Role role = Role::unknown;    ///< of the texture
   std::string name;             ///< --colorspace; empty = nothing
   bool slot_is_data = false;    ///< a glTF slot that holds numbers
   bool slot_is_colour = false;  ///< a glTF slot that holds colours, which are sRGB
