@@ -51,16 +51,15 @@ TexelRules::TexelRules(const FilterSetup& setup, const FilterOptions& options,
   }
 }
 
-/// A covered texel stays in the range of what is summed over, and so does the gutter, which is made
-/// of those; nothing else changes.
+/// A covered texel stays in the range of what is summed over, or as it is if alpha shows nothing of
+/// it; so does the gutter, which is made of those; nothing else changes.
 void check_texel(const TexelRules& rules, Index texel, const ConstTexelValues& texels,
                  const ConstTexelValues& results) {
   const float *before = texels[texel], *after = results[texel];
   std::vector<bool> filtered(std::size_t(texels.channels()));
   for (const int c : texels.range_channels()) filtered[std::size_t(c)] = true;
-  bool finite = true;
-  for (const int c : texels.range_channels()) finite &= std::isfinite(before[c]);
-  const bool may_change = rules.gutter[texel] || (rules.covered[texel] && finite);
+  const bool is_clear = texels.alpha_channel() >= 0 && before[texels.alpha_channel()] == 0;
+  const bool may_change = rules.gutter[texel] || (rules.covered[texel] && !is_clear);
   for (std::size_t c = 0; c < filtered.size(); ++c) {
     if (same_bits(before[c], after[c])) continue;
     const std::string where = " in channel " + std::to_string(c) + " of texel " +

@@ -56,7 +56,7 @@ void weigh_by_alpha(const SurfaceTextures& textures, FilterSamples& samples) {
   }
   for (Sample& s : samples.sources.samples) {
     const float alpha = texels[s.texel][channel];
-    s.area = alpha > 0 ? s.area * alpha : 0;  // not a number counts for nothing
+    s.area = alpha > 0 ? s.area * std::min(alpha, 1.0F) : 0;  // not a number counts for nothing
   }
 }
 
