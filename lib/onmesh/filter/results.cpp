@@ -134,13 +134,13 @@ std::vector<bool> hot_faces(const Colours& colours, const TexelMap& map, const S
   std::iota(channels.begin(), channels.end(), 0);
   const auto [low, high] =
       robust_range(map, channels, [&](Index texel) { return colours.values_of(texel); });
-  const double extent = high - low;
+  const double extent = high - low, lowest = low - extent, highest = high + extent;
   std::vector<bool> hot;
   for (Index f = 0; f + 1 < sources.face_offsets.size(); ++f) {
     for (Index k = sources.face_offsets[f]; k < sources.face_offsets[f + 1]; ++k) {
       const float* const values = colours.values_of(sources.samples[k].texel);
       const bool is_hot = std::any_of(values, values + colours.channels, [&](float value) {
-        return value > high + extent || value < low - extent;
+        return value > highest || value < lowest;
       });
       if (!is_hot) continue;
       hot.resize(sources.face_offsets.size() - 1, false);

@@ -23,12 +23,7 @@ constexpr float kDoubtfulSupport = 200, kDoubtfulShare = 0.2F;
 constexpr std::size_t kMostUncertain = 16;
 /// An error of an uncertain target that asks for more direct sums: in RMS errors of the patch, and
 /// the least and the most of it in tolerances.
-struct FarOff {
-  double errors, least, most;
-};
-constexpr FarOff kFarOff{6, 4, 7};
-/// The same where the tolerance is missed, and single targets matter less.
-constexpr FarOff kFarOffBeyond{12, 6, 16};
+constexpr double kFarOff = 6, kLeastFarOff = 4, kMostFarOff = 7;
 
 /// Factor of the squared radius within which faces are taken, beyond kRadiusSlack.
 constexpr double kReachSlack = 1 + 1e-4;
@@ -258,9 +253,8 @@ bool CheckedKernel::run(const KernelInput& input, DirectKernel& kernel, std::vec
     nodes_.choose_palette(kPaletteSizes[++palette]);
     check.colours = nodes_.evaluate(values_, support_);
   }
-  const FarOff& limits = error <= tolerance_ ? kFarOff : kFarOffBeyond;
   const double far_off =
-      std::clamp(limits.errors * error, limits.least * tolerance_, limits.most * tolerance_);
+      std::clamp(kFarOff * error, kLeastFarOff * tolerance_, kMostFarOff * tolerance_);
   settle_uncertain(input, kernel, far_off, counts, check);
   out.swap(values_);
   return true;
