@@ -54,15 +54,18 @@ class Neighbours {
 }  // namespace
 
 std::uint64_t fill_rings(const TexelMap& map, const TexelValues& values) {
-  std::vector<Index> empty;
+  std::vector<Index> empty, clear;
   for (Index t = 0; t < values.size(); ++t) {
-    if (map.coverage[t] == Coverage::covered && !has_values(values, t)) empty.push_back(t);
+    if (map.coverage[t] != Coverage::covered || has_values(values, t)) continue;
+    const bool is_clear = values.alpha_channel() >= 0 && values[t][values.alpha_channel()] == 0;
+    (is_clear ? clear : empty).push_back(t);
   }
   if (empty.empty()) return 0;
   const Neighbours neighbours(map);
   enum : unsigned char { kFull, kEmpty, kListed };
   std::vector<unsigned char> state(map.coverage.size(), kFull);
   for (const Index t : empty) state[t] = kEmpty;
+  for (const Index t : clear) state[t] = kListed;  // they give and get nothing
   std::vector<Index> ring;
   for (const Index t : empty) {
     neighbours.of(t, [&](Index other) {
