@@ -40,9 +40,7 @@ bool is_base64(std::string_view kind) {
 }  // namespace
 
 // Schemes are written in any case of letters (RFC 3986, section 3.1).
-bool is_data_uri(std::string_view uri) {
-  return lower_case(uri.substr(0, 5)) == "data:";
-}
+bool is_data_uri(std::string_view uri) { return lower_case(uri.substr(0, 5)) == "data:"; }
 
 std::string to_base64(std::string_view bytes) {
   std::string text;
