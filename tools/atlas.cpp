@@ -65,6 +65,7 @@ Atlas read_atlas(TextureSet set, const TriangleMesh& mesh, Wrap wrap) {
   atlas.set = std::move(set);
   for (const SetTexture& texture : atlas.set.textures) {
     atlas.images.push_back(read_texture(texture, atlas.warnings));
+    refuse_image_bombs(atlas.set, atlas.images);
     check_interrupted();
   }
   const SurfaceTextures textures = surface_textures(atlas.set, atlas.images, wrap);

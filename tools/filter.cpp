@@ -269,6 +269,7 @@ FilterInputs read_inputs(const Arguments& arguments, Stopwatch& watch) {
       arguments, slot, is_gltf_name(inputs.mesh_path) && !arguments.has("texture"));
   for (const SetTexture& texture : inputs.set.textures) {
     inputs.images.push_back(read_texture(texture, inputs.warnings));
+    refuse_image_bombs(inputs.set, inputs.images);
     Image& image = inputs.images.back();
     spaces.role = texture.role;
     inputs.spaces.push_back(choose_colour_space(image, spaces));

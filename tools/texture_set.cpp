@@ -401,6 +401,19 @@ Image read_texture(const SetTexture& texture, std::vector<std::string>& warnings
   return read_image_content(*texture.content, texture.path, &warnings);
 }
 
+void refuse_image_bombs(const TextureSet& set, const std::vector<Image>& images) {
+  constexpr double kAlways = 4096.0 * 4096 * 3, kPerByte = 256;  // values
+  double values = 0;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (!set.textures[i].content) continue;
+    values += double(images[i].pixels.size());
+    const fs::path mesh = set.textures[i].path.parent_path();
+    std::error_code none;
+    if (values > kAlways + kPerByte * double(fs::file_size(mesh, none)))
+      throw InputError(mesh.string() + ": its images together are much larger than the file");
+  }
+}
+
 void keep_written(TextureSet& set) {
   std::vector<SetTexture> kept;
   std::vector<Index> number(set.textures.size(), kNone);

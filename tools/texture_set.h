@@ -69,6 +69,11 @@ std::vector<Index> faces_of_material(const TriangleMesh& mesh,
 /// \throw FileError, InputError as read_image()
 Image read_texture(const SetTexture& texture, std::vector<std::string>& warnings);
 
+/// What is inside a mesh file must not become much larger than that, all together.
+/// \param images of the set's first textures
+/// \throw InputError naming the mesh file
+void refuse_image_bombs(const TextureSet& set, const std::vector<Image>& images);
+
 /// Forget the textures that are not written, and that faces carry them.
 void keep_written(TextureSet& set);
 
