@@ -6,9 +6,11 @@
 
 #include "onmesh/filter/filter.h"
 #include "onmesh/filter/range_space.h"
+#include "onmesh/image/image_io.h"
 #include "onmesh/procedural/shapes.h"
 #include "onmesh/procedural/texture.h"
 #include "support/images.h"
+#include "support/temp_folder.h"
 
 namespace onmesh {
 namespace {
@@ -131,6 +133,19 @@ TEST_CASE("bars of black and white average to half the light", "[working_values]
   const Image blurred = filtered(image, gaussian(4), "sRGB");
   CHECK(std::lround(blurred.texel(32 * 64 + 32)[1] * 255) == 188);
   CHECK(std::lround(filtered(image, gaussian(4)).texel(32 * 64 + 32)[1] * 254) == 127);
+}
+
+TEST_CASE("an image that was changed since it was read has values between its file's levels",
+          "[working_values]") {
+  const TempFolder folder;
+  const Image flat = make_image(16, 16, 3);
+  write_image(folder.path() / "a.png", flat, {false, 8});
+  Image read = read_image(folder.path() / "a.png"), made = flat;
+  for (Index t = 0; t < 16 * 16; ++t) {
+    const float code = t == 100 ? kNan : t == 50 ? 1.5F : float(t) / 256;  // between levels
+    for (int c = 0; c < 3; ++c) read.texel(t)[c] = made.texel(t)[c] = code;
+  }
+  CHECK((filtered(read, gaussian(2), "sRGB").pixels == filtered(made, gaussian(2), "sRGB").pixels));
 }
 
 TEST_CASE("texels that stay as they are keep their codes", "[working_values]") {

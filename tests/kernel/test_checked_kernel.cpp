@@ -85,7 +85,8 @@ TEST_CASE("by nodes any number of channels works", "[nodes][filter][slow]") {
         (by_palette ? 53 : 65));
 }
 
-TEST_CASE("by nodes a constant texture stays, and values that are not finite", "[nodes][filter]") {
+TEST_CASE("by nodes a constant texture stays, and what is not finite is filled with it",
+          "[nodes][filter]") {
   Image texture = make_texture(128, 128, Pattern::checker, 0, 1);
   std::fill(texture.pixels.begin(), texture.pixels.end(), 0.3F);
   for (const FilterKind kind : {FilterKind::bilateral, FilterKind::gaussian}) {
@@ -93,14 +94,7 @@ TEST_CASE("by nodes a constant texture stays, and values that are not finite", "
     CHECK(filter(make_cube(), texture, options).pixels == texture.pixels);
     Image holed = texture;
     holed.texel(64 * 128 + 64)[0] = std::numeric_limits<float>::quiet_NaN();
-    const Image filtered = filter(make_cube(), holed, options);
-    for (std::size_t i = 0; i < filtered.pixels.size(); ++i) {
-      if (std::isnan(holed.pixels[i])) {
-        CHECK(std::isnan(filtered.pixels[i]));
-      } else {
-        CHECK(filtered.pixels[i] == texture.pixels[i]);
-      }
-    }
+    CHECK((filter(make_plane(1, 1), holed, options).pixels == texture.pixels));
   }
 }
 

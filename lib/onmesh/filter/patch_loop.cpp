@@ -154,7 +154,8 @@ class PatchFilter {
           input.targets->samples.data() + input.targets->face_offsets[patch.faces[f]];
       for (Index slot = slots[f]; slot < slots[f + 1]; ++slot) {
         const float* const floats = input.colours.of(targets[slot - slots[f]].texel);
-        only_[slot] = is_usable(floats, input.colours.fields(), 1) ? 0 : 1;
+        only_[slot] = !std::all_of(floats, floats + input.colours.fields(),
+                                   [](float value) { return std::isfinite(value); });
         filled_ += only_[slot];
       }
     }

@@ -41,6 +41,7 @@ bool needs_conversion(const SurfaceTextures& textures, const FilterOptions& opti
   return some_space(textures) != nullptr || premultiplied || has_features(options, nullptr);
 }
 
+/// Whether they come before all others of a texel.
 bool are_first(const std::vector<int>& channels) {
   return channels.back() == int(channels.size()) - 1;
 }
@@ -55,6 +56,19 @@ std::vector<float> table_of_codes(const TextureTile& tile) {
   return table;
 }
 
+/// The linear light of a code: by the table if it is one of its levels, as the file's own are.
+float light_of(float code, const std::vector<float>& table, const ColourSpace& space) {
+  const auto levels = float(table.size() - 1);
+  const float level = code * levels;
+  if (level >= 0 && level < float(table.size())) {
+    const auto nearest = std::min(std::size_t(level + 0.5F), table.size() - 1);
+    if (std::abs(level - float(nearest)) <= 2e-7F * levels) return table[nearest];  // rounding
+  }
+  space.to_linear(&code, 1, 1);
+  return code;
+}
+
+/// body(begin, end) for blocks of numbers below `size`, on all threads.
 template <class Body>
 void over_blocks(std::size_t size, const Body& body) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size, kBlock),
@@ -109,7 +123,6 @@ void WorkingValues::convert() {
     const std::vector<float> table = table_of_codes(tile);
     const Coverage* const coverage =
         map_.coverage.data() + std::size_t(to - packed_.data()) / stride;
-    const float levels = table.empty() ? 0 : float(table.size() - 1);
     over_blocks(texels, [&](std::size_t begin, std::size_t end) {
       if (!table.empty()) {
         for (std::size_t t = begin; t < end; ++t) {
@@ -119,8 +132,7 @@ void WorkingValues::convert() {
           for (std::size_t c = 0; c < channels; ++c) {
             const float code = from[channels_[c]];
             if (first_value > 0) texel[c] = code;
-            texel[first_value + c] =
-                table[std::size_t(std::clamp(code, 0.0F, 1.0F) * levels + 0.5F)];
+            texel[first_value + c] = light_of(code, table, *tile.space);
           }
         }
         return;

@@ -128,7 +128,7 @@ void ImageReader::check_header() {
 /// Images inside other files come from anywhere: a few bytes must not become gigabytes.
 void ImageReader::refuse_bomb() const {
   if (place_.path == place_.name) return;
-  constexpr double kAlways = 4096.0 * 4096 * 3, kPerByte = 512;  // values
+  constexpr double kAlways = 4096.0 * 4096 * 3, kPerByte = 256;  // values
   std::error_code none;
   const double bytes = double(std::filesystem::file_size(place_.path, none));
   const double values = double(windows_.display.width) * windows_.display.height * spec_.nchannels;

@@ -21,7 +21,8 @@ class DirectKernel {
   /// Filter all targets in the patch's core faces.
   ///
   /// Samples with a channel that is not finite (or beyond 1e15 in units of sigma_range) have no
-  /// weight, and targets with such a texel keep their own values; so do targets whose weights sum
+  /// weight. Without a range term targets with such a texel get the mean like all others; with one
+  /// they have nothing to be compared by and keep their own values, as do targets whose weights sum
   /// to nothing (8e-25 of a like sample at distance 0). The relative error of a weight is below
   /// 2e-5 where table entries are at most 20 sigma^2, below 4e-6 where colours are more than 8
   /// sigma_range apart; it grows with the entries, which are floats. Two faces between whose
