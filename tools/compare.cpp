@@ -183,7 +183,7 @@ void compare_on_mesh(const Arguments& arguments, const InputMesh& input, Texture
     if (map.claims.empty()) throw InputError("no texel is covered, so there is nothing to compare");
     std::vector<const Image*> a, b;
     for (std::size_t i = 0; i < result.pairs.size(); ++i) {
-      result.parts.push_back(difference(result.a[i], result.b[i], &map, Index(i)));
+      result.parts.push_back(difference(result.a[i], result.b[i], covered_texels(map, Index(i))));
       check_interrupted();
       a.push_back(&result.a[i]);
       b.push_back(&result.b[i]);

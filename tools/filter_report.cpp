@@ -13,16 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-json stages_json(const std::vector<StageTime>& stages) {
-  json list = json::array();
-  for (const StageTime& stage : stages) {
-    list.push_back({{"stage", stage.stage},
-                    {"seconds", stage.seconds},
-                    {"peak_memory_bytes", stage.peak_memory_bytes}});
-  }
-  return list;
-}
-
 /// A length that there is only with Poisson samples.
 json length_or_null(double length) { return length > 0 ? json(length) : json(); }
 
@@ -56,6 +46,8 @@ json counts_json(const FilterReport& report) {
           {"taps_per_texel", report.taps},
           {"overlapped_texels", report.overlapped},
           {"gutter_texels", report.gutter},
+          {"missing_texels", report.missing},
+          {"left_out_texels", report.left_out},
           {"texels_without_sample", report.without_sample}};
 }
 
@@ -70,6 +62,16 @@ std::string length_text(double length, double texel_size) {
 }
 
 }  // namespace
+
+json stages_json(const std::vector<StageTime>& stages) {
+  json list = json::array();
+  for (const StageTime& stage : stages) {
+    list.push_back({{"stage", stage.stage},
+                    {"seconds", stage.seconds},
+                    {"peak_memory_bytes", stage.peak_memory_bytes}});
+  }
+  return list;
+}
 
 json to_json(const FilterPlan& plan) {
   return {{"sigma_spatial", plan.sigma_spatial},

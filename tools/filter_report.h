@@ -3,11 +3,13 @@
 
 #include <iosfwd>
 #include <nlohmann/json_fwd.hpp>
+#include <vector>
 
 #include "onmesh/filter/filter.h"
 
 namespace onmesh::tools {
 
+nlohmann::json stages_json(const std::vector<StageTime>& stages);
 nlohmann::json to_json(const FilterPlan& plan);
 /// Warnings are left out: the caller has some of its own.
 nlohmann::json to_json(const FilterReport& report);

@@ -18,17 +18,6 @@ std::vector<int> channels_of_slot(TextureSlot slot, int channels) {
 
 int colours_of(const Image& image) { return image.channels - (image.alpha_channel >= 0 ? 1 : 0); }
 
-/// Some have alpha, others not, and all else is the same.
-bool differ_by_alpha(const std::vector<Image>& images) {
-  const auto has_alpha = [](const Image& image) { return image.alpha_channel >= 0; };
-  return std::any_of(images.begin(), images.end(), has_alpha) &&
-         !std::all_of(images.begin(), images.end(), has_alpha) &&
-         std::all_of(images.begin(), images.end(), [&](const Image& image) {
-           const bool is_last = !has_alpha(image) || image.alpha_channel == image.channels - 1;
-           return is_last && colours_of(image) == colours_of(images[0]);
-         });
-}
-
 /// The image with an alpha channel of 1 behind the others.
 Image as_opaque(const Image& image) {
   Image opaque = make_image(image.width, image.height, image.channels + 1);
@@ -42,49 +31,72 @@ Image as_opaque(const Image& image) {
   return opaque;
 }
 
-}  // namespace
+bool has_alpha(const Image& image) { return image.alpha_channel >= 0; }
 
-FilteredChannels choose_channels(TextureSlot slot, const std::vector<Image>& images,
-                                 const std::vector<std::string>& names, const std::string& layer,
-                                 std::vector<std::string>& warnings) {
-  FilteredChannels filtered;
-  const auto take = [&](const Image& image, std::vector<int> channels) {
-    Image part = take_channels(image, channels);
-    const auto alpha = std::find(channels.begin(), channels.end(), image.alpha_channel);
-    if (alpha != channels.end()) part.alpha_channel = int(alpha - channels.begin());
-    filtered.parts.push_back(std::move(part));
-    filtered.channels.push_back(std::move(channels));
-  };
-  if (slot == TextureSlot::occlusion || slot == TextureSlot::metallic_roughness) {
-    for (const Image& image : images) take(image, channels_of_slot(slot, image.channels));
-    return filtered;
+/// Some have alpha behind their colours, others not, and all else is the same.
+bool differ_by_alpha(const std::vector<Image>& images) {
+  return std::any_of(images.begin(), images.end(), has_alpha) &&
+         !std::all_of(images.begin(), images.end(), has_alpha) &&
+         std::all_of(images.begin(), images.end(), [&](const Image& image) {
+           const bool is_last = !has_alpha(image) || image.alpha_channel == image.channels - 1;
+           return is_last && colours_of(image) == colours_of(images[0]);
+         });
+}
+
+/// The channels of a layer, but alpha if it means nothing. What stays out is told, but alpha.
+std::vector<int> choose_layer(const ChannelRequest& request, const Image& image,
+                              const std::string& name, bool is_opaque,
+                              std::vector<std::string>& warnings) {
+  std::vector<int> chosen;
+  try {
+    chosen = layer_channels(image, request.layer);
+  } catch (const InputError& error) {
+    throw InputError(name + ": " + error.what() + (request.layer.empty() ? " with --layer" : ""));
   }
-  std::vector<std::vector<int>> chosen;
-  bool are_whole = true;
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    try {
-      chosen.push_back(layer_channels(images[i], layer));
-    } catch (const InputError& error) {
-      throw InputError(names[i] + ": " + error.what() + (layer.empty() ? " with --layer" : ""));
-    }
-    if (int(chosen[i].size()) == images[i].channels) continue;
-    are_whole = false;
+  if (int(chosen.size()) < image.channels) {
     std::string list;
-    for (const int c : chosen[i])
-      list += (list.empty() ? "" : " ") + images[i].channel_names[std::size_t(c)];
-    const auto others = std::uint64_t(images[i].channels) - chosen[i].size();
-    warnings.push_back(names[i] + ": the channels " + list + " are filtered, " +
+    for (const int c : chosen)
+      list += (list.empty() ? "" : " ") + image.channel_names[std::size_t(c)];
+    const auto others = std::uint64_t(image.channels) - chosen.size();
+    warnings.push_back(name + ": the channels " + list + " are filtered, " +
                        count_text(others, "other stays as it is", "others stay as they are"));
   }
-  if (!are_whole) {
-    for (std::size_t i = 0; i < images.size(); ++i) take(images[i], chosen[i]);
-  } else if (differ_by_alpha(images)) {
-    for (const Image& image : images) {
-      filtered.channels.emplace_back();
-      for (int c = 0; c < image.channels; ++c) filtered.channels.back().push_back(c);
-      filtered.parts.push_back(image.alpha_channel >= 0 ? image : as_opaque(image));
-    }
+  if (is_opaque)
+    chosen.erase(std::remove(chosen.begin(), chosen.end(), image.alpha_channel), chosen.end());
+  return chosen;
+}
+
+Image take(const Image& image, const std::vector<int>& channels) {
+  Image part = take_channels(image, channels);
+  const auto alpha = std::find(channels.begin(), channels.end(), image.alpha_channel);
+  if (has_alpha(image) && alpha != channels.end())
+    part.alpha_channel = int(alpha - channels.begin());
+  part.source = image.source;  // how many levels its codes have; it is not written
+  return part;
+}
+
+}  // namespace
+
+FilteredChannels choose_channels(const ChannelRequest& request, const std::vector<Image>& images,
+                                 const std::vector<std::string>& names,
+                                 std::vector<std::string>& warnings) {
+  FilteredChannels filtered;
+  const bool by_slot =
+      request.slot == TextureSlot::occlusion || request.slot == TextureSlot::metallic_roughness;
+  bool are_whole = !by_slot;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const bool is_opaque = !request.opaque.empty() && request.opaque[i];
+    filtered.channels.push_back(
+        by_slot ? channels_of_slot(request.slot, images[i].channels)
+                : choose_layer(request, images[i], names[i], is_opaque, warnings));
+    are_whole &= int(filtered.channels[i].size()) == images[i].channels;
   }
+  if (are_whole && !differ_by_alpha(images)) return {};
+  for (std::size_t i = 0; i < images.size(); ++i)
+    filtered.parts.push_back(take(images[i], filtered.channels[i]));
+  if (!differ_by_alpha(filtered.parts)) return filtered;
+  for (Image& part : filtered.parts)
+    if (!has_alpha(part)) part = as_opaque(part);
   return filtered;
 }
 

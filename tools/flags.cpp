@@ -7,7 +7,8 @@ namespace onmesh::tools {
 namespace {
 
 /// Fields whose flags have other names.
-const std::pair<const char*, const char*> kRenamed[] = {{"faces", "material"}};
+const std::pair<const char*, const char*> kRenamed[] = {{"faces", "material"},
+                                                        {"filter_alpha", "alpha"}};
 
 bool is_word(char c) { return (c >= 'a' && c <= 'z') || c == '_'; }
 

@@ -123,7 +123,7 @@ void examine_textures(const InputMesh& input, const Arguments& arguments, Findin
       spaces.push_back(choose_colour_space(atlas.images[i], request));
     }
     FilteredChannels filtered =
-        choose_channels(slot_of(arguments), atlas.images, names, "", findings.warnings);
+        choose_channels({slot_of(arguments), "", {}}, atlas.images, names, findings.warnings);
     if (!filtered.parts.empty()) atlas.images = std::move(filtered.parts);
     check_channels(atlas, findings);
     if (findings.refusal.empty()) findings.textures = measure(input, atlas, findings);

@@ -5,6 +5,8 @@ namespace {
 
 constexpr Subcommand kCommands[] = {
     {"filter", "filter a texture on the mesh's surface", filter_command, run_filter},
+    {"fill", "give texels without a value one from the surface around them", fill_command,
+     run_fill},
     {"info", "report what is special or wrong about a mesh and its atlas", info_command, run_info},
     {"view", "render the textured mesh as a picture", view_command, run_view},
     {"compare", "measure how two textures differ, and how visible seams are", compare_command,

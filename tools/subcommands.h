@@ -25,6 +25,8 @@ Command compare_command();
 int run_compare(const Arguments& arguments);
 Command distance_command();
 int run_distance(const Arguments& arguments);
+Command fill_command();
+int run_fill(const Arguments& arguments);
 Command filter_command();
 int run_filter(const Arguments& arguments);
 Command info_command();

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <limits>
+#include <utility>
 
 #include "onmesh/filter/node_spacing.h"
 #include "onmesh/nodes/refine.h"
@@ -64,13 +65,13 @@ TEST_CASE("sources weigh as much as alpha shows of them", "[samples]") {
   Image texture = make_image(96, 72, 2);
   texture.alpha_channel = 1;
   for (Index t = 0; t < Index{96 * 72}; ++t) texture.texel(t)[1] = 1;
-  weigh_by_alpha(one_texture(texture, {}), drawn.samples);
+  weigh_samples({{}, true, texels_of(std::as_const(texture))}, drawn.samples);
   CHECK_FALSE(samples.targets_are_own);  // nothing to weigh
   const double area = area_of(samples.sources);
   const Index half = samples.sources.samples[0].texel, none = samples.sources.samples[1].texel;
   texture.texel(half)[1] = 0.5F;
   texture.texel(none)[1] = std::numeric_limits<float>::quiet_NaN();
-  weigh_by_alpha(one_texture(texture, {}), drawn.samples);
+  weigh_samples({{}, true, texels_of(std::as_const(texture))}, drawn.samples);
   CHECK(samples.targets_are_own);
   CHECK(area_of(samples.targets()) == Approx(area));
   const float one = samples.targets().samples[0].area;

@@ -34,20 +34,29 @@ TEST_CASE("the range is that of the covered texels' finite values, per colour ch
   }
   const TexelMap map = left_half();
   REQUIRE(map.claims.size() == 4);
-  const ConstTexelValues texels = texels_of(std::as_const(image));
-  const ValueRange range = value_range(colours_of(image), texels, map, nullptr);
+  FilterOptions options;
+  const SurfaceTextures textures = one_texture(image, options);
+  const auto range_of = [&](const Samples* sources) {
+    return value_range(WorkingValues(textures, map, options), sources);
+  };
+  const ValueRange range = range_of(nullptr);
   CHECK(range.lowest == std::vector<float>{0.25F});
   CHECK(range.highest == std::vector<float>{0.75F});
   // What cannot be seen has no colour.
   image.texel(0)[1] = 0;
-  CHECK(value_range(colours_of(image), texels, map, nullptr).lowest == std::vector<float>{0.25F});
+  CHECK(range_of(nullptr).lowest == std::vector<float>{0.25F});
   image.texel(1)[1] = 0;
-  CHECK(value_range(colours_of(image), texels, map, nullptr).lowest == std::vector<float>{0.75F});
+  CHECK(range_of(nullptr).lowest == std::vector<float>{0.75F});
 
   // A sample beside the covered texels counts as well.
   Samples sources;
   sources.samples.push_back({2, 0, 0, 1});
-  CHECK(value_range(colours_of(image), texels, map, &sources).highest == std::vector<float>{9});
+  CHECK(range_of(&sources).highest == std::vector<float>{9});
+
+  // Filtered, alpha has a range as well, and there nothing is left out.
+  options.filter_alpha = true;
+  CHECK(range_of(nullptr).lowest == std::vector<float>{0.75F, 0});
+  CHECK(range_of(nullptr).highest == std::vector<float>{0.75F, 100});
 }
 
 TEST_CASE("the robust extent leaves out one hot value in thousands", "[results]") {
@@ -89,7 +98,12 @@ TEST_CASE("results are clamped to the range; those that are not finite are not w
   image.texel(5)[1] = 0.125F;
   Samples targets;
   for (const Index texel : {0U, 1U, 4U, 2U, 5U}) targets.samples.push_back({texel, 0, 0, 1});
-  Results results(OverlapPolicy(), targets, {{0.25F}, {0.75F}}, texels_of(image));
+  const Image texture = image;
+  const FilterOptions options;
+  const SurfaceTextures textures = one_texture(texture, options);
+  const TexelMap map = left_half();
+  const WorkingValues working(textures, map, options);
+  Results results(OverlapPolicy(), targets, working, {{0.25F}, {0.75F}}, texels_of(image));
   const float values[] = {0.5F, 0.6F, 0.8F, kInfinity, 0.6F};
   results.store(0, 5, values);
   results.merge_shared();

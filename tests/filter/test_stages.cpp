@@ -14,7 +14,7 @@ TEST_CASE("stages are timed one by one and announced from 0 to 1", "[stages]") {
   const Progress progress = [&](std::string_view stage, double done) {
     told.emplace_back(stage, done);
   };
-  Stages stages(report, progress);
+  Stages stages(report.stages, progress);
   stages.begin("long");
   std::this_thread::sleep_for(std::chrono::milliseconds(30));
   stages.advance(0.5);
@@ -34,7 +34,7 @@ TEST_CASE("stages are timed one by one and announced from 0 to 1", "[stages]") {
 TEST_CASE("stages without a listener are timed alike", "[stages]") {
   FilterReport report;
   const Progress nobody;
-  Stages stages(report, nobody);
+  Stages stages(report.stages, nobody);
   stages.begin("alone");
   stages.advance(0.5);
   stages.end();

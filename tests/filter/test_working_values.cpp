@@ -65,9 +65,8 @@ Image by_definition(const Image& image, const FilterOptions& options, const char
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const auto own = Index(y * image.width + x);
-      if (with_alpha && image.texel(own)[image.alpha_channel] == 0) continue;
       std::vector<double> sum(n, 0);
-      double weights = 0;
+      double weights = 0, alphas = 0, all_weights = 0;
       for (int v = 0; v < image.height; ++v) {
         for (int u = 0; u < image.width; ++u) {
           const auto other = Index(v * image.width + u);
@@ -80,12 +79,17 @@ Image by_definition(const Image& image, const FilterOptions& options, const char
               exponent += apart * apart / (2 * options.sigma_range * options.sigma_range);
             }
           }
-          const double w = std::exp(-exponent) *
-                           (with_alpha ? double(image.texel(other)[image.alpha_channel]) : 1);
+          const double alpha = with_alpha ? double(image.texel(other)[image.alpha_channel]) : 1;
+          const double w = std::exp(-exponent) * alpha;
+          all_weights += std::exp(-exponent);
+          alphas += std::exp(-exponent) * alpha;
           weights += w;
           for (std::size_t c = 0; c < n; ++c) sum[c] += w * light[other * n + c];
         }
       }
+      if (options.filter_alpha)
+        result.texel(own)[image.alpha_channel] = float(alphas / all_weights);
+      if (with_alpha && image.texel(own)[image.alpha_channel] == 0) continue;
       std::vector<float> mean;
       for (const double s : sum) mean.push_back(float(s / weights));
       if (space) space->from_linear(mean.data(), 1, int(n));
@@ -110,6 +114,7 @@ TEST_CASE("the filter averages light, weighed by alpha, compared in any range sp
   const char* const space = GENERATE("raw", "sRGB");
   options.range_space =
       GENERATE(RangeSpace::code, RangeSpace::linear, RangeSpace::log, RangeSpace::oklab);
+  options.filter_alpha = GENERATE(false, true);
   INFO(space << ", range space " << int(options.range_space));
   CHECK(psnr(filtered(image, options, space), by_definition(image, options, space, true)) > 90);
 }

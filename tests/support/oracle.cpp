@@ -23,6 +23,10 @@ double alpha_of(const Image& texture, Index texel) {
   return texture.alpha_channel < 0 ? 1 : double(texture.texel(texel)[texture.alpha_channel]);
 }
 
+double sample_weight(const Weights& weights, Index texel) {
+  return weights.of_samples.empty() ? 1 : double(weights.of_samples[texel]);
+}
+
 double squared_colour_distance(const Image& texture, Index a, Index b) {
   double sum = 0;
   for (int c = 0; c < texture.channels; ++c) {
@@ -83,7 +87,8 @@ std::vector<double> filtered_value(const TexelPoints& all, const Neighbourhood& 
   const float* const own_values = texture.texel(own);
   std::vector<double> value(own_values, own_values + texture.channels);
   if (alpha_of(texture, own) == 0) return value;
-  const bool is_compared = weights.sigma_range > 0 && is_usable(texture, own);
+  const bool is_compared =
+      weights.sigma_range > 0 && is_usable(texture, own) && sample_weight(weights, own) > 0;
   std::vector<double> sum(value.size(), 0);
   double total = 0;
   for (std::size_t k = 0; k < around.near.size(); ++k) {
@@ -96,8 +101,8 @@ std::vector<double> filtered_value(const TexelPoints& all, const Neighbourhood& 
       exponent += squared_colour_distance(texture, own, all.texels[y]) /
                   (2 * weights.sigma_range * weights.sigma_range);
     }
-    const double w =
-        all.areas[y] * std::max(alpha_of(texture, all.texels[y]), 0.0) * std::exp(-exponent);
+    const double w = all.areas[y] * std::max(alpha_of(texture, all.texels[y]), 0.0) *
+                     sample_weight(weights, all.texels[y]) * std::exp(-exponent);
     total += w;
     if (pairs != nullptr) ++*pairs;
     for (std::size_t c = 0; c < sum.size(); ++c)

@@ -46,6 +46,8 @@ Neighbourhood neighbourhood(const TexelPoints& all, std::size_t centre, double r
 struct Weights {
   double sigma = 0, radius = 0;  ///< mesh units
   double sigma_range = 0;        ///< value units; 0: no colour weight, that is the Gaussian filter
+  /// Per texel, how much it counts as a sample; texels of 0 have no value. Empty: all 1.
+  std::vector<float> of_samples = {};
 };
 
 /// The filter's value at the neighbourhood's centre, one number per channel. Alpha stays; it is the

@@ -1,4 +1,5 @@
 // What a texel means: light, alpha, layers, values that are missing.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -148,4 +149,68 @@ TEST_CASE("colour spaces of an OpenColorIO configuration are known by their name
   unsetenv("OCIO");
   CHECK(std::abs(middle(space.read("o.png")) - 180) <= 1);
   CHECK(middle(space.read("own.png")) == 188);  // sRGB is known without any
+}
+
+TEST_CASE("masks say what is taken and what counts", "[tools][values]") {
+  const Sheet space;
+  // Lit but for a block that something stands on: black, and not valid.
+  Image lit = make_image(32, 32, 3), mask = make_image(32, 32, 1);
+  for (Index t = 0; t < 32 * 32; ++t) {
+    const bool hidden = t % 32 > 10 && t % 32 < 20 && t / 32 > 10 && t / 32 < 20;
+    std::fill_n(lit.texel(t), 3, hidden ? 0.F : 0.7F);
+    mask.pixels[t] = hidden ? 0.F : 1.F;
+  }
+  write_image(space / "ao.png", lit, {false, 8});
+  write_image(space / "mask.png", mask, {false, 8});
+  const Image before = space.read("ao.png");
+  const std::string blur = " -t ao.png --kind gaussian --sigma-spatial 3tx";
+  const Run run = space.must("filter m.obj -o o.png --mask mask.png" + blur);
+  CHECK_THAT(run.err, Contains("81 texels that the mask leaves out are black"));
+  CHECK(has_same_pixels(before, space.read("o.png")));
+  const auto report =
+      space.must("filter m.obj -o o.png --mask-samples mask.png --json --quiet" + blur).json();
+  CHECK(report["counts"]["left_out_texels"] == 81);
+  const Image filled = space.read("o.png");
+  for (Index t = 0; t < 32 * 32; ++t) REQUIRE(filled.texel(t)[0] == before.texel(0)[0]);
+  space.must("filter m.obj -o o.png --strength 0" + blur);
+  CHECK(has_same_pixels(before, space.read("o.png")));
+
+  Image alpha = make_image(4, 4, 1);
+  alpha.channel_names = {"A"};
+  write_image(space / "alpha.exr", alpha);
+  check_refused(space, "filter m.obj -o x.png --mask alpha.exr" + blur, 3, "alpha.exr");
+  check_refused(space, "filter m.obj -o x.png --mask none.png" + blur, 4, "none.png");
+  check_refused(space, "filter m.obj -o x.png --strength 2" + blur, 2, "--strength: 2 is not");
+  check_refused(space, "filter m.obj -o x.png --alpha" + blur, 3, "there is no alpha to filter");
+}
+
+TEST_CASE("detail and output give the texture again", "[tools][values]") {
+  const Sheet space;
+  const Image image = make_texture(32, 32, Pattern::checker, 0.2, 3, 3);
+  for (const int bits : {8, 16}) {
+    write_image(space / "m.png", image, {false, bits});
+    space.must("filter m.obj -t m.png -o o.png --detail-out d.exr" + kBlur);
+    const Image before = space.read("m.png"), out = space.read("o.png"), d = space.read("d.exr");
+    const double levels = bits == 8 ? 255 : 65535;
+    for (std::size_t k = 0; k < before.pixels.size(); ++k)
+      REQUIRE(std::lround((double(out.pixels[k]) + d.pixels[k]) * levels) ==
+              std::lround(before.pixels[k] * levels));
+  }
+  write_image(space / "m.exr", image);
+  space.must("filter m.obj -t m.exr -o o.exr --detail-out sub/ " + kBlur);
+  const Image out = space.read("o.exr"), d = space.read("sub/m.exr");
+  for (std::size_t k = 0; k < out.pixels.size(); ++k) {
+    // Within the last place of the larger one: the difference has no more bits than that.
+    const float again = out.pixels[k] + d.pixels[k], was = image.pixels[k];
+    const float large = std::max(std::abs(was), std::abs(out.pixels[k]));
+    REQUIRE(std::abs(again - was) <= std::nextafter(large, 2.F) - large);
+  }
+  space.must("filter m.obj -t m.png -o o.png --detail-gain 1" + kBlur);
+  CHECK(has_same_pixels(space.read("m.png"), space.read("o.png")));
+  check_refused(space, "filter m.obj -t m.png -o o.png --detail-out d.png", 2,
+                "--detail-out: d.png: differences need 32-bit float");
+  check_refused(space, "filter m.obj -t m.png -o o.png --detail-out d.exr --detail-gain 2", 2,
+                "--detail-out and --detail-gain exclude each other");
+  check_refused(space, "filter m.obj -t m.exr -o o.exr --detail-out o.exr", 2,
+                "is the output or the mesh");
 }

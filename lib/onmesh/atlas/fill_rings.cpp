@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "onmesh/atlas/charts_of_texels.h"
+
 namespace onmesh {
 namespace {
 
@@ -12,17 +14,6 @@ bool has_values(const TexelValues& values, Index texel) {
   const std::vector<int>& channels = values.range_channels();
   return std::all_of(channels.begin(), channels.end(),
                      [at = values[texel]](int c) { return std::isfinite(at[c]); });
-}
-
-std::vector<Index> charts_of_texels(const TexelMap& map) {
-  std::vector<Index> charts(map.coverage.size(), kNone);
-  for (Index f = 0; f + 1 < map.face_offsets.size(); ++f) {
-    for (Index k = map.face_offsets[f]; k < map.face_offsets[f + 1]; ++k) {
-      Index& chart = charts[map.tile_of(f).texel(map.claims[k])];
-      if (chart == kNone) chart = map.chart_of_face[f];
-    }
-  }
-  return charts;
 }
 
 /// The texel's neighbours in the image that its chart covers.

@@ -4,6 +4,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cstddef>
 
 namespace onmesh {
@@ -15,6 +16,19 @@ void parallel_over(std::size_t size, Body&& body) {
   oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, size, 16),
                             [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
                               for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
+                            });
+}
+
+/// body(begin, end) for blocks of up to 1024 neighbouring numbers below `size`, in any order and on
+/// all threads.
+template <class Body>
+void over_blocks(std::size_t size, const Body& body) {
+  constexpr std::size_t kBlock = 1024;
+  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, size, kBlock),
+                            [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
+                              for (std::size_t begin = range.begin(); begin < range.end();
+                                   begin += kBlock)
+                                body(begin, std::min(begin + kBlock, range.end()));
                             });
 }
 

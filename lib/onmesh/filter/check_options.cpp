@@ -25,6 +25,13 @@ void check_weld(const Length& weld) {
   }
 }
 
+/// Both ends belong to it.
+void check_between(const char* option, double value, double least, double largest) {
+  if (value >= least && value <= largest) return;
+  throw OptionError(option, number_text(value) + " is not between " + number_text(least) + " and " +
+                                number_text(largest));
+}
+
 void check_numbers(const FilterOptions& options) {
   const auto check = [](const char* option, const std::optional<Length>& length) {
     if (length) require_positive(option, length->value);
@@ -40,6 +47,8 @@ void check_numbers(const FilterOptions& options) {
   require_within("tolerance", options.tolerance, 1e-9, 1e3);
   check("bridge", options.bridge);
   if (options.weld) check_weld(*options.weld);
+  check_between("strength", options.strength, 0, 1);
+  check_between("detail_gain", options.detail_gain, -100, 100);
   if (options.threads < 0) throw OptionError("threads", "must not be negative");
   if (options.gutter < 0 || options.gutter > kMostRings) {
     throw OptionError("gutter", "must be between 0 and " + std::to_string(kMostRings));
@@ -68,6 +77,11 @@ void check_image(const Image& image) {
       image.pixels.empty()) {
     throw InputError("the texture's pixels are not width * height * channels values");
   }
+}
+
+void check_mask(const Image& mask) {
+  check_image(mask);
+  if (mask.range_channels().empty()) throw InputError("a mask has no channel but alpha");
 }
 
 std::string channels_text(const Image& image) {
@@ -130,6 +144,12 @@ void check_arrays(const TriangleMesh& mesh) {
   }
 }
 
+void check_alpha(const SurfaceTextures& textures) {
+  const Image& first = *textures.tiles[0].image;
+  if (first.alpha_channel < 0)
+    throw InputError("there is no alpha to filter: the texture has " + channels_text(first));
+}
+
 void check_textures(const SurfaceTextures& textures, std::size_t faces, RangeSpace range_space) {
   if (textures.tiles.empty()) throw InputError("there is no texture");
   if (!textures.tile_of_face.empty())
@@ -142,6 +162,8 @@ void check_textures(const SurfaceTextures& textures, std::size_t faces, RangeSpa
   double texels = 0;
   for (const TextureTile& tile : textures.tiles) {
     check_image(*tile.image);
+    for (const Image* const mask : {tile.mask, tile.sample_mask})
+      if (mask != nullptr) check_mask(*mask);
     texels += double(tile.image->width) * tile.image->height;
     if (tile.image->channels != first.channels ||
         tile.image->alpha_channel != first.alpha_channel) {

@@ -32,4 +32,8 @@ void check_arrays(const TriangleMesh& mesh);
 void check_textures(const SurfaceTextures& textures, std::size_t faces,
                     RangeSpace range_space = RangeSpace::code);
 
+/// \pre check_textures() has passed
+/// \throw InputError if the textures have no alpha
+void check_alpha(const SurfaceTextures& textures);
+
 }  // namespace onmesh

@@ -43,21 +43,24 @@ FilterSamples draw_samples(const FilterSetup& setup, const NodeSurface& surface,
   return samples;
 }
 
-void weigh_by_alpha(const SurfaceTextures& textures, FilterSamples& samples) {
-  const ConstTexelValues texels = textures.values();
-  const int channel = texels.alpha_channel();
-  if (channel < 0) return;
-  const auto is_weighted = [&](const Sample& s) { return texels[s.texel][channel] != 1; };
+float SampleWeights::of(Index texel) const {
+  const float weight = of_mask.empty() ? 1 : of_mask[texel];
+  if (!by_alpha || codes.alpha_channel() < 0) return weight;
+  const float alpha = codes[texel][codes.alpha_channel()];
+  return alpha > 0 ? weight * std::min(alpha, 1.F) : 0;  // not a number counts for nothing
+}
+
+void weigh_samples(const SampleWeights& weights, FilterSamples& samples) {
+  if (weights.are_one()) return;
   const auto& all = samples.sources.samples;
-  if (std::none_of(all.begin(), all.end(), is_weighted)) return;
+  if (std::all_of(all.begin(), all.end(),
+                  [&](const Sample& s) { return weights.of(s.texel) == 1; }))
+    return;
   if (!samples.targets_are_own) {
     samples.own_targets = samples.sources;
     samples.targets_are_own = true;
   }
-  for (Sample& s : samples.sources.samples) {
-    const float alpha = texels[s.texel][channel];
-    s.area = alpha > 0 ? s.area * std::min(alpha, 1.0F) : 0;  // not a number counts for nothing
-  }
+  for (Sample& s : samples.sources.samples) s.area *= weights.of(s.texel);
 }
 
 }  // namespace onmesh

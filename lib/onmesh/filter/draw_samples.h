@@ -5,6 +5,7 @@
 
 #include "onmesh/base/progress.h"
 #include "onmesh/filter/setup.h"
+#include "onmesh/image/texel_values.h"
 #include "onmesh/kernel/direct/direct_kernel.h"
 #include "onmesh/samples/samples.h"
 
@@ -23,8 +24,19 @@ struct FilterSamples {
 FilterSamples draw_samples(const FilterSetup& setup, const NodeSurface& surface,
                            const FilterOptions& options, const Progress& progress);
 
-/// Weigh the sources by their texels' alpha: what cannot be seen has no colour. Where all are
-/// opaque nothing changes.
-void weigh_by_alpha(const SurfaceTextures& textures, FilterSamples& samples);
+/// How much the texels of samples count.
+struct SampleWeights {
+  std::vector<float> of_mask;  ///< per texel, see chart_mask(); empty = all 1
+  /// What cannot be seen has no colour.
+  bool by_alpha = false;
+  /// The textures' own values.
+  ConstTexelValues codes;
+
+  bool are_one() const { return of_mask.empty() && !(by_alpha && codes.alpha_channel() >= 0); }
+  float of(Index texel) const;
+};
+
+/// Weigh the sources. Where all weights are 1 nothing changes.
+void weigh_samples(const SampleWeights& weights, FilterSamples& samples);
 
 }  // namespace onmesh

@@ -1,15 +1,13 @@
 #include "onmesh/filter/filter.h"
 
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <optional>
 
+#include "onmesh/atlas/chart_mask.h"
 #include "onmesh/atlas/fill_rings.h"
 #include "onmesh/atlas/gutter.h"
 #include "onmesh/base/face_error.h"
@@ -19,7 +17,9 @@
 #include "onmesh/filter/check_options.h"
 #include "onmesh/filter/draw_samples.h"
 #include "onmesh/filter/memory_plan.h"
+#include "onmesh/filter/on_threads.h"
 #include "onmesh/filter/patch_loop.h"
+#include "onmesh/filter/result_values.h"
 #include "onmesh/filter/results.h"
 #include "onmesh/filter/setup.h"
 #include "onmesh/filter/stages.h"
@@ -103,12 +103,17 @@ void note_counts(const PatchCounts& counts, FilterReport& report) {
 /// \param left covered texels that have no value even so
 void note_missing(const WorkingValues& working, std::uint64_t left, FilterReport& report) {
   report.missing = working.missing();
-  if (working.missing() > 0) {
-    report.warnings.push_back(
-        count_text(working.missing(), "texel", "texels") +
-        " on the surface had values that are not finite: they did not count, and " +
-        (left == 0 ? std::string("were filled from around them")
-                   : "all but " + std::to_string(left) + " were filled from around them"));
+  report.left_out = working.left_out();
+  const auto tell = [&](std::uint64_t count, const char* why) {
+    if (count == 0) return;
+    report.warnings.push_back(count_text(count, "texel", "texels") + " on the surface " + why +
+                              ": they did not count, and were filled from around them");
+  };
+  tell(working.missing() - working.left_out(), "had values that are not finite");
+  tell(working.left_out(), "had no value by the mask of samples");
+  if (left > 0) {
+    report.warnings.push_back(count_text(left, "texel", "texels") +
+                              " had nothing around them to be filled from: they stay as they are");
   }
   if (working.emission() > 0) {
     report.warnings.push_back(count_text(working.emission(), "texel", "texels") +
@@ -161,6 +166,55 @@ NodeSurface make_nodes(const RunContext& run, std::vector<Image>& images) {
   return surface;
 }
 
+/// What masks say of the texels.
+struct Masks {
+  std::vector<float> of_results, of_samples;  ///< see TextureTile; empty = 1 everywhere
+  std::vector<float> weights;                 ///< those of the samples
+};
+
+/// What a mask of the results hides is often nothing that was ever lit, and black. If no mask says
+/// which samples count, that does not.
+std::vector<float> weights_without_unlit(const RunContext& run, const std::vector<float>& mask) {
+  const ConstTexelValues codes = run.textures.values();
+  const std::vector<int>& colours = codes.range_channels();
+  std::vector<float> weights;
+  std::uint64_t unlit = 0;
+  for (Index t = 0; t < codes.size(); ++t) {
+    if (run.setup.map.coverage[t] != Coverage::covered || mask[t] > 0) continue;
+    if (!std::all_of(colours.begin(), colours.end(), [&](int c) { return codes[t][c] == 0; }))
+      continue;
+    if (weights.empty()) weights.resize(mask.size(), 1);
+    weights[t] = 0;
+    ++unlit;
+  }
+  if (unlit > 0) {
+    run.report.warnings.push_back(count_text(unlit, "texel", "texels") +
+                                  " that the mask leaves out are black: taken for such without "
+                                  "light, they do not count (a mask of samples says which do)");
+  }
+  return weights;
+}
+
+Masks look_up_masks(const RunContext& run) {
+  std::vector<const Image*> of_results, of_samples;
+  for (const TextureTile& tile : run.textures.tiles) {
+    of_results.push_back(tile.mask);
+    of_samples.push_back(tile.sample_mask);
+  }
+  Masks masks;
+  masks.of_results = chart_mask(run.setup.mesh, run.setup.map, of_results);
+  masks.of_samples = chart_mask(run.setup.mesh, run.setup.map, of_samples);
+  masks.weights = masks.of_samples.empty() && !masks.of_results.empty()
+                      ? weights_without_unlit(run, masks.of_results)
+                      : masks.of_samples;
+  return masks;
+}
+
+void refuse_nothing(const WorkingValues& working) {
+  if (working.missing() < working.covered()) return;
+  throw InputError("no texel on the surface has a value: there is nothing to filter");
+}
+
 /// Distances and sums, patch by patch, into the images.
 void filter_samples(const RunContext& run, const NodeMesh& nodes, const FilterSamples& samples,
                     const WorkingValues& working, const TexelValues& results_at) {
@@ -182,16 +236,15 @@ void filter_samples(const RunContext& run, const NodeMesh& nodes, const FilterSa
   if (options.distance == DistanceMethod::exact) refuse_long_runs(work);
   if (options.method != FilterMethod::direct) {
     work.tolerance = options.tolerance * robust_extent(codes, run.setup.map);
-    work.hot_faces = hot_faces(work.colours, run.setup.map, samples.sources);
+    work.hot_faces = hot_faces(working.straight(), run.setup.map, samples.sources);
     work.encode = [&](float* values, std::size_t targets) {
-      working.encode_values(values, targets);
+      working.encode_means(values, targets);
     };
   }
 
   const bool poisson = options.samples == SampleKind::poisson;
-  const ValueRange range =
-      value_range(work.colours, codes, run.setup.map, poisson ? &samples.sources : nullptr);
-  Results results(run.setup.overlap, samples.targets(), range, results_at);
+  Results results(run.setup.overlap, samples.targets(), working,
+                  value_range(working, poisson ? &samples.sources : nullptr), results_at);
   const PatchCounts counts = filter_patches(
       work, [&](Index begin, Index end, const float* values) { results.store(begin, end, values); },
       [&](double done) { run.stages.advance(done); });
@@ -207,7 +260,7 @@ void filter_samples(const RunContext& run, const NodeMesh& nodes, const FilterSa
 std::vector<Image> run_filter(const TriangleMesh& mesh, const SurfaceTextures& textures,
                               const FilterOptions& options, FilterReport& report,
                               const Progress& progress) {
-  Stages stages(report, progress);
+  Stages stages(report.stages, progress);
   stages.begin("texel map");
   const FilterSetup setup = set_up_filter(mesh, textures, options);
   require_memory(setup.mesh_plan);
@@ -219,34 +272,36 @@ std::vector<Image> run_filter(const TriangleMesh& mesh, const SurfaceTextures& t
     stages.begin("refine");
     std::vector<Image> images;
     NodeSurface surface = make_nodes(run, images);
-    TexelValues values;
-    for (Image& image : images) values.add(image);
     stages.end();
 
     stages.begin("samples");
-    const WorkingValues working(textures, setup.map, options);
-    working.load(images);
+    const Masks masks = look_up_masks(run);
+    const WorkingValues working(textures, setup.map, options, masks.of_samples);
+    refuse_nothing(working);
+    const ResultValues results(working, images);
     FilterSamples samples = draw_samples(setup, surface, options, progress);
     surface.overlay = {};
-    weigh_by_alpha(textures, samples);
+    weigh_samples({masks.weights, !options.filter_alpha, textures.values()}, samples);
     report.samples = samples.sources.samples.size();
     report.texels = samples.targets().samples.size();
     stages.end();
 
     stages.begin("filter");
-    filter_samples(run, surface.nodes, samples, working, values);
+    filter_samples(run, surface.nodes, samples, working, results.values());
     samples = {};
     surface = {};
     stages.end();
 
     stages.begin("gutter");
-    note_missing(working, fill_rings(setup.map, values), report);
+    note_missing(working, fill_rings(setup.map, results.values()), report);
+    results.blend(options, masks.of_results);
     std::vector<Index> gutter;
     if (options.gutter > 0) {
-      gutter = fill_gutter(setup.mesh, setup.map, options.gutter, values, setup.lengths.bridge);
+      gutter = fill_gutter(setup.mesh, setup.map, options.gutter, results.values(),
+                           setup.lengths.bridge);
       report.gutter = gutter.size();
     }
-    working.encode(gutter, images);
+    results.encode(gutter);
     stages.end();
     return images;
   });
@@ -260,20 +315,8 @@ std::vector<Image> filter(const TriangleMesh& mesh, const SurfaceTextures& textu
   FilterReport unused;
   FilterReport& out = report != nullptr ? *report : unused;
   out = {};
-  const int available = tbb::info::default_concurrency();
-  const int threads = options.threads > 0 ? options.threads : available;
-  // More threads than processors need to be allowed first.
-  std::optional<tbb::global_control> more;
-  if (threads > available) {
-    more.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
-  }
-  tbb::task_arena arena(threads);
-  try {
-    return arena.execute([&] { return run_filter(mesh, textures, options, out, progress); });
-  } catch (const std::bad_alloc&) {
-    throw InputError("out of memory, with " + memory_text(resident_memory_bytes()) +
-                     " in use; choose a larger node spacing or a smaller texture");
-  }
+  return on_threads(options.threads,
+                    [&] { return run_filter(mesh, textures, options, out, progress); });
 }
 
 Image filter(const TriangleMesh& mesh, const Image& texture, const FilterOptions& options,

@@ -26,6 +26,25 @@ int thread_count(const FilterOptions& options) {
   return options.threads > 0 ? options.threads : tbb::info::default_concurrency();
 }
 
+/// What is looked up of masks; of another size they have a texel map of their own meanwhile.
+double memory_of_masks(const SurfaceTextures& textures) {
+  const double texels = double(textures.values().size());
+  bool has_mask = false, has_sample_mask = false;
+  double bytes = 0;
+  for (const TextureTile& tile : textures.tiles) {
+    has_mask |= tile.mask != nullptr;
+    has_sample_mask |= tile.sample_mask != nullptr;
+    for (const Image* const mask : {tile.mask, tile.sample_mask}) {
+      if (mask == nullptr) continue;
+      if (mask->width == tile.image->width && mask->height == tile.image->height) continue;
+      bytes += (sizeof(TexelClaim) + 5.0) * mask->width * mask->height;
+    }
+  }
+  // A mask of results may make weights of its own.
+  return bytes + sizeof(float) * texels * (has_mask ? 2 : 0) +
+         sizeof(float) * texels * (has_sample_mask ? 2 : 0);
+}
+
 void require(std::uint64_t bytes, std::uint64_t limit, const std::string& what) {
   if (bytes <= limit) return;
   throw InputError("would take about " + memory_text(bytes) + " of memory" + what + ", and " +
@@ -52,11 +71,13 @@ std::uint64_t expected_memory(const SurfaceTextures& textures, const FilterPlan&
   // The results and, if they are others than the codes, what is summed.
   const double values = double(texels.size()) * texels.channels() * sizeof(float) +
                         WorkingValues::memory(textures, options);
-  // Weighed by alpha, samples are others than targets.
+  // Weighed samples are others than targets.
+  const double masks = memory_of_masks(textures);
+  const bool weighed = texels.alpha_channel() >= 0 || masks > 0;
   const double per_sample =
       (options.samples == SampleKind::poisson ? kBytesPerPoissonSample : kBytesPerSample) +
-      (texels.alpha_channel() >= 0 ? kBytesPerSample : 0);
-  return whole_number(double(resident_memory_bytes()) + values +
+      (weighed ? kBytesPerSample : 0);
+  return whole_number(double(resident_memory_bytes()) + values + masks +
                       kBytesPerTexel * double(plan.texels) + per_sample * double(plan.samples) +
                       kBytesPerNode * double(plan.nodes) + kBytesPerThread * thread_count(options));
 }
@@ -76,6 +97,18 @@ void require_memory_for_texels(const TriangleMesh& mesh, const SurfaceTextures& 
   const double bytes = (kBytesPerClaim + kBytesPerTexel + kBytesPerSample) * texels;
   require(whole_number(bytes), memory_limit(options),
           " for " + std::to_string(whole_number(texels)) + " texels on the surface");
+}
+
+void require_memory_to_fill(const SurfaceTextures& textures, std::uint64_t missing,
+                            const FilterOptions& options) {
+  // Up to 8 links and a row for each texel, vectors of four values, and a third of it again for
+  // the coarser levels; places and rows of all texels.
+  constexpr double kBytesPerMissing = 400, kBytesPerTexelFilled = 16;
+  const ConstTexelValues texels = textures.values();
+  const double bytes = double(resident_memory_bytes()) + kBytesPerMissing * double(missing) +
+                       kBytesPerTexelFilled * double(texels.size());
+  require(whole_number(bytes), memory_limit(options),
+          " to fill " + std::to_string(missing) + " texels");
 }
 
 void require_memory(const FilterPlan& plan) { require(plan.memory_bytes, plan.memory_limit, ""); }

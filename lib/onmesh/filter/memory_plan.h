@@ -28,4 +28,8 @@ void require_memory_for_texels(const TriangleMesh& mesh, const SurfaceTextures& 
 /// \throw InputError with both numbers if the plan takes more memory than may be used
 void require_memory(const FilterPlan& plan);
 
+/// The same for filling so many texels.
+void require_memory_to_fill(const SurfaceTextures& textures, std::uint64_t missing,
+                            const FilterOptions& options);
+
 }  // namespace onmesh

@@ -61,6 +61,15 @@ struct FilterOptions {
   /// Between the nodes of the distance tables; > 0. Default: see node_spacing_for().
   std::optional<Length> node_spacing;
 
+  /// How much of the result is taken: in + strength (filtered - in), in linear light; [0, 1].
+  /// Texels without a value get the filtered one whatever this and the mask say.
+  double strength = 1;
+  /// How much of what was taken away is added again, in codes: out + detail_gain (in - out), within
+  /// the codes that the file has; [-100, 100].
+  double detail_gain = 0;
+  /// Alpha is filtered like colours, with the same weights; else it stays.
+  bool filter_alpha = false;
+
   FilterMethod method = FilterMethod::automatic;  ///< how the sums are done
   /// Where the nodes are used: most RMS difference to the direct sums of codes, as a share of the
   /// textures' robust range (without one in a thousand at either end); > 0.

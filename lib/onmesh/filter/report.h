@@ -72,7 +72,8 @@ struct FilterReport {
   std::uint64_t overlapped = 0;      ///< texels claimed more than once
   std::uint64_t gutter = 0;          ///< texels filled around the charts
   std::uint64_t without_sample = 0;  ///< targets that kept their values
-  std::uint64_t missing = 0;         ///< texels on the surface with a value that is not finite
+  std::uint64_t missing = 0;         ///< texels on the surface without a value
+  std::uint64_t left_out = 0;        ///< those of them that the mask of samples leaves out
 
   std::string method;          ///< "direct", "nodes" or "nodes and direct"
   std::uint64_t by_nodes = 0;  ///< targets evaluated on nodes

@@ -60,6 +60,21 @@ ValueRange range_of_texels(const Colours& colours, std::size_t count, const Texe
       join);
 }
 
+/// The range of what the texels and samples have; those whose alpha is 0 are left out.
+ValueRange range_of(const Colours& colours, const ConstTexelValues& alpha, const TexelMap& map,
+                    const Samples* sources) {
+  const auto unless_clear = [&](Index texel) { return has_alpha_0(alpha, texel) ? kNone : texel; };
+  // Covered texels are looked at in the texture's order, which is faster than that of the claims.
+  ValueRange range = range_of_texels(colours, map.coverage.size(), [&](std::size_t t) {
+    return map.coverage[t] == Coverage::covered ? unless_clear(Index(t)) : kNone;
+  });
+  if (sources == nullptr) return range;
+  return join(std::move(range),
+              range_of_texels(colours, sources->samples.size(), [&](std::size_t k) {
+                return unless_clear(sources->samples[k].texel);
+              }));
+}
+
 /// Rare values are beyond these percentiles.
 constexpr double kRare = 0.001;
 
@@ -100,18 +115,18 @@ std::pair<double, double> robust_range(const TexelMap& map, const std::vector<in
 
 }  // namespace
 
-ValueRange value_range(const Colours& colours, const ConstTexelValues& alpha, const TexelMap& map,
-                       const Samples* sources) {
-  const auto unless_clear = [&](Index texel) { return has_alpha_0(alpha, texel) ? kNone : texel; };
-  // Covered texels are looked at in the texture's order, which is faster than that of the claims.
-  ValueRange range = range_of_texels(colours, map.coverage.size(), [&](std::size_t t) {
-    return map.coverage[t] == Coverage::covered ? unless_clear(Index(t)) : kNone;
-  });
-  if (sources == nullptr) return range;
-  return join(std::move(range),
-              range_of_texels(colours, sources->samples.size(), [&](std::size_t k) {
-                return unless_clear(sources->samples[k].texel);
-              }));
+ValueRange value_range(const WorkingValues& working, const Samples* sources) {
+  const ConstTexelValues codes = working.textures().values();
+  ValueRange range = range_of(working.straight(), codes, working.map(), sources);
+  if (working.filters_alpha()) {
+    Colours alpha = working.colours();
+    alpha.first_value += alpha.channels - 1;
+    alpha.channels = 1;
+    const ValueRange of_alpha = range_of(alpha, {}, working.map(), sources);
+    range.lowest.push_back(of_alpha.lowest[0]);
+    range.highest.push_back(of_alpha.highest[0]);
+  }
+  return range;
 }
 
 double robust_extent(const ConstTexelValues& codes, const TexelMap& map) {
@@ -151,21 +166,28 @@ std::vector<bool> hot_faces(const Colours& colours, const TexelMap& map, const S
   return hot;
 }
 
-Results::Results(const OverlapPolicy& overlap, const Samples& targets, ValueRange range,
-                 const TexelValues& texels)
+Results::Results(const OverlapPolicy& overlap, const Samples& targets, const WorkingValues& working,
+                 ValueRange range, const TexelValues& texels)
     : targets_(targets),
+      working_(working),
       range_(std::move(range)),
       texels_(texels),
-      shared_(overlap, targets, texels.range_channels().size()) {}
+      shared_(overlap, targets, std::size_t(working.colours().channels)) {}
 
 void Results::store(Index begin, Index end, const float* values) {
-  const std::vector<int>& channels = texels_.range_channels();
+  const auto channels = std::size_t(working_.colours().channels);
+  std::vector<float> straight;
+  if (working_.filters_alpha()) {
+    straight.assign(values, values + std::size_t(end - begin) * channels);
+    working_.straighten(straight.data(), end - begin);
+    values = straight.data();
+  }
   // Texels of a face are in many rows; none should be waited for by itself.
   for (Index target = begin; target < end; ++target)
     hwy::Prefetch(texels_[targets_.samples[target].texel]);
   const std::vector<Index>& several = shared_.targets();
   auto shared = std::lower_bound(several.begin(), several.end(), begin);
-  for (Index target = begin; target < end; ++target, values += channels.size()) {
+  for (Index target = begin; target < end; ++target, values += channels) {
     if (shared != several.end() && *shared == target) {
       shared_.keep(std::size_t(shared - several.begin()), values);
       ++shared;
@@ -180,15 +202,23 @@ void Results::merge_shared() {
 }
 
 /// Rounding must not leave the samples' range. Sums may overflow where values are as large as
-/// single precision has them: these texels stay. So do those that nothing can be seen of.
+/// single precision has them: these texels stay. So do the colours that nothing can be seen of.
 void Results::write(Index texel, const float* values) {
-  const std::vector<int>& channels = texels_.range_channels();
+  const std::vector<int>& channels = working_.channels();
   float* const out = texels_[texel];  // as the texture has it
-  if (texels_.alpha_channel() >= 0 && out[texels_.alpha_channel()] == 0) return;
-  if (!std::all_of(values, values + channels.size(), [](float v) { return std::isfinite(v); }))
-    return;
-  for (std::size_t c = 0; c < channels.size(); ++c)
-    out[channels[c]] = std::clamp(values[c], range_.lowest[c], range_.highest[c]);
+  const auto summed = std::size_t(working_.colours().channels);
+  if (!std::all_of(values, values + summed, [](float v) { return std::isfinite(v); })) return;
+  const int alpha = texels_.alpha_channel();
+  const bool was_visible = alpha < 0 || out[alpha] != 0;
+  const bool is_visible = !working_.filters_alpha() || values[channels.size()] > 0;
+  if (was_visible && is_visible) {
+    for (std::size_t c = 0; c < channels.size(); ++c)
+      out[channels[c]] = std::clamp(values[c], range_.lowest[c], range_.highest[c]);
+  }
+  if (working_.filters_alpha()) {
+    const std::size_t c = channels.size();
+    out[alpha] = std::clamp(values[c], range_.lowest[c], range_.highest[c]);
+  }
 }
 
 }  // namespace onmesh

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "onmesh/filter/shared_results.h"
+#include "onmesh/filter/working_values.h"
 #include "onmesh/image/texel_values.h"
-#include "onmesh/kernel/kernel_input.h"
 
 namespace onmesh {
 
@@ -15,11 +15,10 @@ struct ValueRange {
 };
 
 /// The range of all values that a texel may end up with: those of the samples, and those of the
-/// targets, which may keep theirs.
-/// \param alpha texels whose alpha is 0 are neither
+/// targets, which may keep theirs. Colours of texels whose alpha is 0 are neither.
 /// \param sources the samples, if others than the covered texels are summed over; else null
-ValueRange value_range(const Colours& colours, const ConstTexelValues& alpha, const TexelMap& map,
-                       const Samples* sources);
+/// \return of what WorkingValues::straighten() leaves
+ValueRange value_range(const WorkingValues& working, const Samples* sources);
 
 /// How far the texels' codes go without rare ones: from below the 99.9th percentile over the
 /// surface to above the 0.1th, of all channels; at least 1e-6 of the largest; 1 if all are 0.
@@ -30,15 +29,17 @@ double robust_extent(const ConstTexelValues& codes, const TexelMap& map);
 /// \return one entry per node face, or none at all if there is no such sample
 std::vector<bool> hot_faces(const Colours& colours, const TexelMap& map, const Samples& sources);
 
-/// Takes the kernel's results and puts them into the images. Every texel is written by one thread:
-/// those with several claims wait in a list of their own until all are there.
+/// Takes the kernel's results and puts them into the images, straight. Every texel is written by
+/// one thread: those with several claims wait in a list of their own until all are there.
 class Results {
  public:
-  /// \param texels of a copy of the textures, to be written; those with alpha 0 are not
+  /// \param working what was summed
+  /// \param texels of copies of the textures, to be written; the colours of those with alpha 0 are
+  ///   not
   /// \param range that results are clamped to, against rounding
-  /// \pre targets and the images outlive this
-  Results(const OverlapPolicy& overlap, const Samples& targets, ValueRange range,
-          const TexelValues& texels);
+  /// \pre all but range outlives this
+  Results(const OverlapPolicy& overlap, const Samples& targets, const WorkingValues& working,
+          ValueRange range, const TexelValues& texels);
 
   /// As StoreResults.
   void store(Index begin, Index end, const float* values);
@@ -49,6 +50,7 @@ class Results {
   void write(Index texel, const float* values);
 
   const Samples& targets_;
+  const WorkingValues& working_;
   const ValueRange range_;
   const TexelValues texels_;
   SharedResults shared_;

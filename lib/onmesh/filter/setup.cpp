@@ -108,6 +108,7 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const SurfaceTextures& textu
   check_options(options, mesh.faces.size());
   check_textures(textures, mesh.faces.size(),
                  options.kind == FilterKind::bilateral ? options.range_space : RangeSpace::code);
+  if (options.filter_alpha) check_alpha(textures);
   FilterSetup setup{prepare_mesh(mesh, textures, options), {}, {}, {}, false, {}};
   std::vector<std::string> names;
   for (const TextureTile& tile : textures.tiles) names.push_back(tile.name);

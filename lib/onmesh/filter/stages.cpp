@@ -16,7 +16,7 @@ void Stages::advance(double done) const {
 
 void Stages::end() {
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start_;
-  report_.stages.push_back({stage_, taken.count(), peak_memory_bytes()});
+  times_.push_back({stage_, taken.count(), peak_memory_bytes()});
   advance(1);
 }
 

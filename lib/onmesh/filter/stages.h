@@ -1,19 +1,21 @@
-// The filter's stages: their times for the report, their progress for the user.
+// The stages of filter and fill: their times for the report, their progress for the user.
 #pragma once
 
 #include <chrono>
+#include <vector>
 
 #include "onmesh/base/progress.h"
 #include "onmesh/filter/report.h"
 
 namespace onmesh {
 
-/// Notes the time between begin() and end() as a stage of the report, and announces stages to the
+/// Notes the time between begin() and end() as a stage of a report, and announces stages to the
 /// user. One at a time.
 class Stages {
  public:
-  /// \pre report and progress outlive this
-  Stages(FilterReport& report, const Progress& progress) : report_(report), progress_(progress) {}
+  /// \pre both outlive this
+  Stages(std::vector<StageTime>& times, const Progress& progress)
+      : times_(times), progress_(progress) {}
 
   void begin(const char* stage);
   /// \param done share of the stage, 0 to 1
@@ -21,7 +23,7 @@ class Stages {
   void end();
 
  private:
-  FilterReport& report_;
+  std::vector<StageTime>& times_;
   const Progress& progress_;
   const char* stage_ = "";
   std::chrono::steady_clock::time_point start_;

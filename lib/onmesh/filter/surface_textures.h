@@ -26,6 +26,12 @@ struct TextureTile {
   /// What its codes mean as light, which is what sums are of; null: codes are summed as they are.
   std::shared_ptr<const ColourSpace> space = nullptr;
   bool premultiplied = false;  ///< its colours are multiplied with alpha: see is_premultiplied()
+  /// By how much results replace what was there, from 0 to 1; null: 1. Of any size, see
+  /// chart_mask(). Outlives the textures, as the next.
+  const Image* mask = nullptr;
+  /// By how much texels count as samples, from 0 to 1; those of 0 have no value, and get one. Null:
+  /// 1.
+  const Image* sample_mask = nullptr;
 };
 
 /// All of them, each with its own size and wrap mode. They are one map: colour flows from one into

@@ -1,20 +1,18 @@
 #include "onmesh/filter/working_values.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
+#include <limits>
 
+#include "onmesh/base/parallel.h"
 #include "onmesh/filter/range_space.h"
 
 namespace onmesh {
 namespace {
-
-/// Texels that are converted at once.
-constexpr std::size_t kBlock = 1024;
 
 /// The first tile whose codes are no amounts of light; null if there is none.
 const ColourSpace* some_space(const SurfaceTextures& textures) {
@@ -25,6 +23,7 @@ const ColourSpace* some_space(const SurfaceTextures& textures) {
 
 bool has_features(const FilterOptions& options, const ColourSpace* space) {
   if (options.kind != FilterKind::bilateral) return false;
+  if (options.filter_alpha) return true;  // sums are of other values
   switch (options.range_space) {
     case RangeSpace::code:
       return space != nullptr;
@@ -36,10 +35,24 @@ bool has_features(const FilterOptions& options, const ColourSpace* space) {
 }
 
 bool needs_conversion(const SurfaceTextures& textures, const FilterOptions& options) {
-  const bool premultiplied = std::any_of(textures.tiles.begin(), textures.tiles.end(),
-                                         [](const TextureTile& t) { return t.premultiplied; });
-  return some_space(textures) != nullptr || premultiplied || has_features(options, nullptr);
+  const bool others =
+      std::any_of(textures.tiles.begin(), textures.tiles.end(),
+                  [](const TextureTile& t) { return t.premultiplied || t.sample_mask != nullptr; });
+  return some_space(textures) != nullptr || others || options.filter_alpha ||
+         has_features(options, nullptr);
 }
+
+/// What a texel has in WorkingValues: features, what is summed, straight colours if that is
+/// something else.
+struct Layout {
+  int features, summed, straight;
+
+  Layout(const FilterOptions& options, const ColourSpace* space, int channels)
+      : features(has_features(options, space) ? channels : 0),
+        summed(channels + (options.filter_alpha ? 1 : 0)),
+        straight(options.filter_alpha ? channels : 0) {}
+  int floats() const { return features + summed + straight; }
+};
 
 /// Whether they come before all others of a texel.
 bool are_first(const std::vector<int>& channels) {
@@ -68,37 +81,37 @@ float light_of(float code, const std::vector<float>& table, const ColourSpace& s
   return code;
 }
 
-/// body(begin, end) for blocks of numbers below `size`, on all threads.
-template <class Body>
-void over_blocks(std::size_t size, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size, kBlock),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t begin = range.begin(); begin < range.end(); begin += kBlock)
-                        body(begin, std::min(begin + kBlock, range.end()));
-                    });
-}
-
 }  // namespace
 
 WorkingValues::WorkingValues(const SurfaceTextures& textures, const TexelMap& map,
-                             const FilterOptions& options)
+                             const FilterOptions& options, const std::vector<float>& sample_weights)
     : textures_(textures),
       map_(map),
       options_(options),
       space_(some_space(textures)),
       channels_(textures.tiles[0].image->range_channels()),
-      is_converted_(needs_conversion(textures, options)) {
+      filters_alpha_(options.filter_alpha),
+      is_converted_(!sample_weights.empty() || needs_conversion(textures, options)) {
   const Image& first = *textures.tiles[0].image;
   const auto channels = static_cast<int>(channels_.size());
   const int compared = options.kind == FilterKind::bilateral ? channels : 0;
   if (!is_converted_ && textures.tiles.size() == 1 && are_first(channels_)) {
     colours_ = {first.pixels.data(), channels, compared, first.channels, first.width};
+    straight_ = colours_;
   } else {
-    const int features = has_features(options, space_) ? channels : 0;
-    packed_.resize(std::size_t(textures.values().size()) * std::size_t(features + channels));
-    colours_ = {packed_.data(), channels, compared, features + channels, first.width, features};
+    const Layout layout(options, space_, channels);
+    packed_.resize(std::size_t(textures.values().size()) * std::size_t(layout.floats()));
+    colours_ = {packed_.data(),  layout.summed, compared,
+                layout.floats(), first.width,   layout.features};
+    straight_ = colours_;
+    straight_.channels = channels;
+    straight_.first_value = layout.floats() - (filters_alpha_ ? channels : layout.summed);
     convert();
+    leave_out(sample_weights);
+    make_features();
+    multiply_with_alpha();
   }
+  straight_.range_channels = 0;
   count_missing();
   count_emission();
 }
@@ -107,15 +120,15 @@ double WorkingValues::memory(const SurfaceTextures& textures, const FilterOption
   const std::vector<int> channels = textures.tiles[0].image->range_channels();
   if (!needs_conversion(textures, options) && textures.tiles.size() == 1 && are_first(channels))
     return 0;
-  const double fields =
-      double(channels.size()) * (has_features(options, some_space(textures)) ? 2 : 1);
-  return fields * double(textures.values().size()) * sizeof(float);
+  const Layout layout(options, some_space(textures), int(channels.size()));
+  return layout.floats() * double(textures.values().size()) * sizeof(float);
 }
 
-/// Straight codes of the filtered channels, side by side.
+/// Straight colours of the filtered channels; their codes before them if there are features.
 void WorkingValues::convert() {
   const auto channels = channels_.size(), stride = std::size_t(colours_.stride);
-  const auto first_value = std::size_t(colours_.first_value);
+  const auto first_value = std::size_t(straight_.first_value);
+  const bool has_codes = colours_.first_value > 0;
   float* to = packed_.data();
   for (const TextureTile& tile : textures_.tiles) {
     const Image& image = *tile.image;
@@ -131,7 +144,7 @@ void WorkingValues::convert() {
           float* const texel = to + t * stride;
           for (std::size_t c = 0; c < channels; ++c) {
             const float code = from[channels_[c]];
-            if (first_value > 0) texel[c] = code;
+            if (has_codes) texel[c] = code;
             texel[first_value + c] = light_of(code, table, *tile.space);
           }
         }
@@ -144,7 +157,7 @@ void WorkingValues::convert() {
         const float alpha = tile.premultiplied ? from[image.alpha_channel] : 1;
         for (const int c : channels_) *at++ = alpha > 0 ? from[c] / alpha : from[c];
       }
-      if (first_value > 0) {
+      if (has_codes) {
         for (std::size_t t = begin; t < end; ++t)
           std::copy_n(&light[(t - begin) * channels], channels, to + t * stride);
       }
@@ -154,15 +167,49 @@ void WorkingValues::convert() {
     });
     to += texels * stride;
   }
-  if (first_value == 0 || options_.range_space == RangeSpace::code) return;
+}
+
+/// Texels that count for nothing have no value.
+void WorkingValues::leave_out(const std::vector<float>& sample_weights) {
+  if (sample_weights.empty()) return;
+  for (std::size_t t = 0; t < sample_weights.size(); ++t) {
+    if (sample_weights[t] > 0 || map_.coverage[t] != Coverage::covered) continue;
+    ++left_out_;
+    float* const texel = packed_.data() + t * std::size_t(colours_.stride);
+    std::fill_n(texel, colours_.stride, std::numeric_limits<float>::quiet_NaN());
+  }
+}
+
+/// What is compared, of the codes that are in its place.
+void WorkingValues::make_features() {
+  if (colours_.first_value == 0 || options_.range_space == RangeSpace::code) return;
+  const auto channels = channels_.size(), stride = std::size_t(colours_.stride);
   const RangeFeatures features(options_.range_space, int(channels), mean_light());
   over_blocks(textures_.values().size(), [&](std::size_t begin, std::size_t end) {
     std::vector<float> result(channels);
     for (std::size_t t = begin; t < end; ++t) {
       if (map_.coverage[t] == Coverage::none) continue;
       float* const texel = packed_.data() + t * stride;
-      features.of(texel, texel + first_value, result.data());
+      features.of(texel, straight_.values_of(Index(t)), result.data());
       std::copy_n(result.data(), channels, texel);
+    }
+  });
+}
+
+/// What is summed where alpha is.
+void WorkingValues::multiply_with_alpha() {
+  if (!filters_alpha_) return;
+  const ConstTexelValues codes = textures_.values();
+  over_blocks(codes.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      if (map_.coverage[t] == Coverage::none) continue;
+      const float alpha = codes[Index(t)][codes.alpha_channel()];
+      const float* const straight = straight_.values_of(Index(t));
+      float* const summed =
+          packed_.data() + t * std::size_t(colours_.stride) + colours_.first_value;
+      for (std::size_t c = 0; c < channels_.size(); ++c) summed[c] = straight[c] * alpha;
+      // What has no colour has no alpha that counts either.
+      summed[channels_.size()] = std::isnan(straight[0]) ? straight[0] : alpha;
     }
   });
 }
@@ -174,7 +221,7 @@ double WorkingValues::mean_light() const {
     double logs = 0, count = 0;
     for (Index k = map_.face_offsets[f]; k < map_.face_offsets[f + 1]; ++k) {
       const Index texel = map_.tile_of(f).texel(map_.claims[k]);
-      const double light = luminance(colours_.values_of(texel), colours_.channels);
+      const double light = luminance(straight_.values_of(texel), straight_.channels);
       if (!(light > 0) || !std::isfinite(light)) continue;
       logs += std::log(light);
       ++count;
@@ -186,18 +233,24 @@ double WorkingValues::mean_light() const {
 }
 
 void WorkingValues::count_missing() {
-  missing_ = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, map_.coverage.size(), 16384), std::uint64_t{0},
-      [&](const tbb::blocked_range<std::size_t>& part, std::uint64_t count) {
+  using Counts = std::array<std::uint64_t, 2>;  // covered, missing
+  const Counts counts = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, map_.coverage.size(), 16384), Counts{},
+      [&](const tbb::blocked_range<std::size_t>& part, Counts count) {
         for (std::size_t t = part.begin(); t < part.end(); ++t) {
           if (map_.coverage[t] != Coverage::covered) continue;
           const float* const texel = colours_.of(Index(t));
-          count += !std::all_of(texel, texel + colours_.fields(),
-                                [](float value) { return std::isfinite(value); });
+          ++count[0];
+          count[1] += !std::all_of(texel, texel + colours_.fields(),
+                                   [](float value) { return std::isfinite(value); });
         }
         return count;
       },
-      std::plus<>());
+      [](const Counts& a, const Counts& b) {
+        return Counts{a[0] + b[0], a[1] + b[1]};
+      });
+  covered_ = counts[0];
+  missing_ = counts[1];
 }
 
 void WorkingValues::count_emission() {
@@ -215,74 +268,21 @@ void WorkingValues::count_emission() {
   }
 }
 
-void WorkingValues::load(std::vector<Image>& images) const {
-  if (!is_converted_) return;
-  TexelValues values;
-  for (Image& image : images) values.add(image);
-  over_blocks(values.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      if (map_.coverage[t] != Coverage::covered) continue;
-      const float* const from = colours_.values_of(Index(t));
-      float* const to = values[Index(t)];
-      for (std::size_t c = 0; c < channels_.size(); ++c) to[channels_[c]] = from[c];
-    }
-  });
-}
-
-void WorkingValues::encode_values(float* values, std::size_t texels) const {
-  if (space_ != nullptr) space_->from_linear(values, texels, int(channels_.size()));
-}
-
-void WorkingValues::encode_some(const std::vector<Index>& texels, const TextureTile& tile,
-                                const ConstTexelValues& codes, const TexelValues& values) const {
+void WorkingValues::straighten(float* values, std::size_t texels) const {
+  if (!filters_alpha_) return;
   const std::size_t channels = channels_.size();
-  std::vector<float> straight;
-  straight.reserve(texels.size() * channels);
-  for (const Index t : texels)
-    for (const int c : channels_) straight.push_back(values[t][c]);
-  if (tile.space) tile.space->from_linear(straight.data(), texels.size(), int(channels));
-  const int alpha_channel = tile.image->alpha_channel;
-  const float* encoded = straight.data();
-  for (const Index t : texels) {
-    const float *const before = colours_.values_of(t), *const own = codes[t];
-    float* const out = values[t];
-    bool is_same = map_.coverage[t] == Coverage::covered;
-    for (std::size_t c = 0; c < channels; ++c) {
-      const float value = out[channels_[c]];
-      if (!is_same) break;
-      is_same = value == before[c] || (std::isnan(value) && std::isnan(before[c]));
-    }
-    const float alpha = tile.premultiplied && own[alpha_channel] > 0 ? own[alpha_channel] : 1;
-    for (const int c : channels_) {
-      const float code = *encoded++ * alpha;
-      out[c] = is_same ? own[c] : code;
-    }
+  for (float* const end = values + texels * (channels + 1); values != end; values += channels + 1) {
+    const float alpha = values[channels];
+    for (std::size_t c = 0; c < channels; ++c) values[c] = alpha > 0 ? values[c] / alpha : 0;
   }
 }
 
-void WorkingValues::encode(const std::vector<Index>& others, std::vector<Image>& images) const {
-  if (!is_converted_) return;
-  TexelValues values;
-  for (Image& image : images) values.add(image);
-  const ConstTexelValues codes = textures_.values();
-  Index first = 0;
-  auto other = others.begin();
-  for (const TextureTile& tile : textures_.tiles) {
-    const Index count = Index(tile.image->width) * Index(tile.image->height);
-    const auto end_of_others = std::lower_bound(other, others.end(), first + count);
-    over_blocks(count, [&](std::size_t begin, std::size_t end) {
-      std::vector<Index> covered;
-      for (std::size_t t = first + begin; t < first + end; ++t)
-        if (map_.coverage[t] == Coverage::covered) covered.push_back(Index(t));
-      encode_some(covered, tile, codes, values);
-    });
-    over_blocks(std::size_t(end_of_others - other), [&](std::size_t begin, std::size_t end) {
-      const std::vector<Index> some(other + std::ptrdiff_t(begin), other + std::ptrdiff_t(end));
-      encode_some(some, tile, codes, values);
-    });
-    other = end_of_others;
-    first += count;
-  }
+void WorkingValues::encode_means(float* values, std::size_t texels) const {
+  straighten(values, texels);
+  if (space_ == nullptr) return;
+  if (!filters_alpha_) return space_->from_linear(values, texels, int(channels_.size()));
+  for (std::size_t t = 0; t < texels; ++t)
+    space_->from_linear(values + t * (channels_.size() + 1), 1, int(channels_.size()));
 }
 
 }  // namespace onmesh

@@ -12,50 +12,69 @@
 
 namespace onmesh {
 
-/// What the filter computes with, in place of the files' codes. Sums are of linear light, of
-/// colours that are not multiplied with alpha; what the range weight compares is beside them if it
-/// is something else. Where all of that is the codes themselves, nothing is copied.
+/// What the filter computes with, in place of the files' codes. Sums are of linear light; what the
+/// range weight compares is beside it if it is something else. Where all of that is the codes
+/// themselves, nothing is copied.
+///
+/// Where alpha is filtered, sums are of colours multiplied with alpha, and of alpha itself:
+/// straighten() makes the mean colour of their means. Else samples are weighed by alpha.
 class WorkingValues {
  public:
-  /// \pre the textures and their images outlive this
-  WorkingValues(const SurfaceTextures& textures, const TexelMap& map, const FilterOptions& options);
+  /// \param sample_weights per texel, see chart_mask(): those of 0 have no value; empty = all 1
+  /// \pre the textures and their images, map and options outlive this
+  WorkingValues(const SurfaceTextures& textures, const TexelMap& map, const FilterOptions& options,
+                const std::vector<float>& sample_weights = {});
 
+  const SurfaceTextures& textures() const { return textures_; }
+  const TexelMap& map() const { return map_; }
+  /// What is summed.
   const Colours& colours() const { return colours_; }
-  /// How many covered texels have a value that is not finite: no samples, and filled.
+  /// The colours alone, in linear light and not multiplied with alpha; none are compared.
+  const Colours& straight() const { return straight_; }
+  /// The images' channels that hold colours.
+  const std::vector<int>& channels() const { return channels_; }
+  /// Whether values are others than the codes.
+  bool are_converted() const { return is_converted_; }
+  bool filters_alpha() const { return filters_alpha_; }
+
+  /// How many texels are covered.
+  std::uint64_t covered() const { return covered_; }
+  /// How many of them have no value, as it is not finite or left out: no samples, and filled.
   std::uint64_t missing() const { return missing_; }
+  /// How many of those have a weight of 0.
+  std::uint64_t left_out() const { return left_out_; }
   /// How many covered texels have alpha 0 and yet a colour that is multiplied with it.
   std::uint64_t emission() const { return emission_; }
 
-  /// Put the values of covered texels into copies of the textures.
-  void load(std::vector<Image>& images) const;
-  /// Turn the values of covered texels and of `others` back into codes. Those that are what they
-  /// were get the texture's own codes, bit for bit.
-  /// \param others other texels that have working values, ascending
-  void encode(const std::vector<Index>& others, std::vector<Image>& images) const;
-  /// Turn values into codes in place, those of the first tile whose codes are others: to tell how
-  /// large errors are.
-  void encode_values(float* values, std::size_t texels) const;
+  /// Turn means of sums into straight colours, followed by alpha where that is filtered, in place.
+  /// What is invisible has no colour: it is left at 0.
+  void straighten(float* values, std::size_t texels) const;
+  /// The same, then into codes, those of the first tile whose codes are others: to tell how large
+  /// errors are.
+  void encode_means(float* values, std::size_t texels) const;
 
   /// Bytes that a filter of these textures needs for its working values.
   static double memory(const SurfaceTextures& textures, const FilterOptions& options);
 
  private:
   void convert();
+  void leave_out(const std::vector<float>& sample_weights);
+  void make_features();
+  void multiply_with_alpha();
   double mean_light() const;
   void count_missing();
   void count_emission();
-  void encode_some(const std::vector<Index>& texels, const TextureTile& tile,
-                   const ConstTexelValues& codes, const TexelValues& values) const;
 
   const SurfaceTextures& textures_;
   const TexelMap& map_;
   const FilterOptions& options_;
   const ColourSpace* space_ = nullptr;  ///< of the first tile that has one
-  std::vector<int> channels_;           ///< of the images, those that are filtered
-  bool is_converted_ = false;           ///< else the codes are the values
+  std::vector<int> channels_;
+  bool filters_alpha_ = false;
+  bool is_converted_ = false;
   LargeArray<float> packed_;
-  Colours colours_;
-  std::uint64_t missing_ = 0, emission_ = 0;
+  Colours colours_, straight_;
+  std::uint64_t covered_ = 0, missing_ = 0, left_out_ = 0, emission_ = 0;
 };
 
 }  // namespace onmesh

@@ -24,12 +24,12 @@ struct RowDifference {
   Index bad = kNone;    ///< the first texel that is not finite in one image only
 };
 
-RowDifference difference_in_row(const Image& a, const Image& b, const TexelMap* map, Index tile,
-                                Index y) {
+RowDifference difference_in_row(const Image& a, const Image& b,
+                                const std::vector<unsigned char>& counted, Index y) {
   RowDifference row;
   const Index begin = y * Index(a.width);
   for (Index i = begin; i < begin + Index(a.width); ++i) {
-    if (map != nullptr && map->coverage[map->tiles[tile].first + i] != Coverage::covered) continue;
+    if (!counted.empty() && counted[i] == 0) continue;
     ++row.texels;
     if (row.worst == kNone) row.worst = i;
     for (int c = 0; c < a.channels; ++c) {
@@ -56,14 +56,23 @@ double decibels(double rms) {
 
 }  // namespace
 
-ImageDifference difference(const Image& a, const Image& b, const TexelMap* map, Index tile) {
+std::vector<unsigned char> covered_texels(const TexelMap& map, Index tile) {
+  const TexelTile& of = map.tiles[tile];
+  std::vector<unsigned char> covered(of.size());
+  for (Index i = 0; i < of.size(); ++i)
+    covered[i] = map.coverage[of.first + i] == Coverage::covered ? 1 : 0;
+  return covered;
+}
+
+ImageDifference difference(const Image& a, const Image& b,
+                           const std::vector<unsigned char>& counted) {
   if (a.width != b.width || a.height != b.height || a.channels != b.channels)
     throw InputError("the images differ in size: " + size_of(a) + " and " + size_of(b));
-  if (map != nullptr && (map->tiles[tile].width != a.width || map->tiles[tile].height != a.height))
-    throw InputError("the texel map is not of the images' size");
+  if (!counted.empty() && counted.size() != std::size_t(a.width) * std::size_t(a.height))
+    throw InputError("what is to be compared is not of the images' size");
   std::vector<RowDifference> rows(std::size_t(a.height));
   parallel_over(rows.size(),
-                [&](std::size_t y) { rows[y] = difference_in_row(a, b, map, tile, Index(y)); });
+                [&](std::size_t y) { rows[y] = difference_in_row(a, b, counted, Index(y)); });
   ImageDifference result;
   double squares = 0;
   bool first = true;

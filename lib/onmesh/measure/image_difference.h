@@ -19,11 +19,13 @@ struct ImageDifference {
 
 /// Compare two images over all channels. Two NaN, or two equal infinities, are equal. The same
 /// result for any number of threads.
-/// \param map if given, only its covered texels are compared
-/// \param tile of the map that the images are
+/// \param counted per texel, 0 = it is not compared; empty = all are
 /// \throw InputError if sizes or channel counts differ, or a value is not finite in one image only
-ImageDifference difference(const Image& a, const Image& b, const TexelMap* map = nullptr,
-                           Index tile = 0);
+ImageDifference difference(const Image& a, const Image& b,
+                           const std::vector<unsigned char>& counted = {});
+
+/// Which texels of a tile are covered, for difference().
+std::vector<unsigned char> covered_texels(const TexelMap& map, Index tile = 0);
 
 /// That of several pairs of images with the same channels, all values counted alike. The worst
 /// texel is that of the pair with the largest maximum, the first if several have it.

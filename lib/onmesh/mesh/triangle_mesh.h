@@ -20,6 +20,7 @@ struct Material {
   std::optional<WrapModes> wrap = std::nullopt;
   /// What the texture's file holds if it is inside the mesh file; `texture` is only a name then.
   std::shared_ptr<const std::string> content = nullptr;
+  bool is_opaque = false;  ///< said so: the texture's alpha means nothing
 };
 
 /// Positions and UVs are indexed apart: position indices give connectivity, UV indices stay per

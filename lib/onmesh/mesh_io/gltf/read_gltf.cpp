@@ -169,6 +169,9 @@ void GltfReader::read_materials() {
     const JsonPlace place = file_.element("materials", i);
     Material material{one_line_text(place.text("name")), {}};
     if (material.name.empty()) material.name = "material" + std::to_string(i);
+    if (options_.slot == TextureSlot::base_colour) {
+      material.is_opaque = !place.find("alphaMode") || place.text("alphaMode") == "OPAQUE";
+    }
     SlotUvs uvs;
     if (const auto info = slot_texture(place)) read_slot(*info, material, uvs);
     if (options_.uv_set) uvs.set = *options_.uv_set;

@@ -1,0 +1,170 @@
+#include "onmesh/filter/result_values.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "onmesh/base/parallel.h"
+
+namespace onmesh {
+namespace {
+
+bool are_finite(const float* values, std::size_t count) {
+  return std::all_of(values, values + count, [](float v) { return std::isfinite(v); });
+}
+
+/// Straight colours turned into codes, side by side.
+void to_codes(const TextureTile& tile, std::size_t channels, std::vector<float>& colours) {
+  if (tile.space) tile.space->from_linear(colours.data(), colours.size() / channels, int(channels));
+}
+
+}  // namespace
+
+ResultValues::ResultValues(const WorkingValues& working, std::vector<Image>& images)
+    : working_(working), codes_(working.textures().values()) {
+  for (Image& image : images) values_.add(image);
+  if (!working.are_converted()) return;
+  over_blocks(values_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      if (working.map().coverage[t] != Coverage::covered) continue;
+      const float* from = working.straight().values_of(Index(t));
+      float* const to = values_[Index(t)];
+      for (const int c : working.channels()) to[c] = *from++;
+    }
+  });
+}
+
+/// body(first, count, tile) for every tile: its texels' numbers begin at `first`.
+template <class Body>
+void ResultValues::over_tiles(const Body& body) const {
+  Index first = 0;
+  for (const TextureTile& tile : working_.textures().tiles) {
+    const Index count = Index(tile.image->width) * Index(tile.image->height);
+    body(first, count, tile);
+    first += count;
+  }
+}
+
+void ResultValues::blend(const FilterOptions& options, const std::vector<float>& mask) const {
+  if (options.strength == 1 && options.detail_gain == 0 && mask.empty()) return;
+  over_tiles([&](Index first, Index count, const TextureTile& tile) {
+    over_blocks(count, [&](std::size_t begin, std::size_t end) {
+      std::vector<Index> known;
+      for (std::size_t t = first + begin; t < first + end; ++t) {
+        if (working_.map().coverage[t] == Coverage::covered &&
+            are_finite(working_.straight().values_of(Index(t)), working_.channels().size()))
+          known.push_back(Index(t));
+      }
+      blend_some(known, options.strength, mask);
+      if (options.detail_gain != 0) add_detail(known, tile, options.detail_gain);
+    });
+  });
+}
+
+void ResultValues::blend_some(const std::vector<Index>& texels, double strength,
+                              const std::vector<float>& mask) const {
+  const auto mix = [](float from, float to, float share) {
+    // The ends are exact.
+    return share == 1 ? to : share == 0 ? from : from + share * (to - from);
+  };
+  for (const Index t : texels) {
+    const auto share = float(strength) * (mask.empty() ? 1 : mask[t]);
+    const float* in = working_.straight().values_of(t);
+    float* const out = values_[t];
+    for (const int c : working_.channels()) {
+      out[c] = mix(*in, out[c], share);
+      ++in;
+    }
+    if (!working_.filters_alpha()) continue;
+    float& alpha = out[codes_.alpha_channel()];
+    alpha = mix(codes_[t][codes_.alpha_channel()], alpha, share);
+  }
+}
+
+/// In codes, and back into light: the gutter goes on from there.
+void ResultValues::add_detail(const std::vector<Index>& texels, const TextureTile& tile,
+                              double gain) const {
+  const std::vector<int>& channels = working_.channels();
+  std::vector<float> before, after;
+  for (const Index t : texels) {
+    const float* in = working_.straight().values_of(t);
+    before.insert(before.end(), in, in + channels.size());
+    for (const int c : channels) after.push_back(values_[t][c]);
+  }
+  to_codes(tile, channels.size(), before);
+  to_codes(tile, channels.size(), after);
+  const bool is_integer = levels_of(*tile.image) > 0;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    after[i] += float(gain) * (before[i] - after[i]);
+    if (is_integer) after[i] = std::clamp(after[i], 0.F, 1.F);
+  }
+  if (tile.space) tile.space->to_linear(after.data(), texels.size(), int(channels.size()));
+  const float* next = after.data();
+  for (const Index t : texels) {
+    const bool stays = is_unchanged(t);
+    for (const int c : channels) {
+      const float value = *next++;
+      if (!stays && std::isfinite(value)) values_[t][c] = value;
+    }
+  }
+}
+
+/// A covered texel with the value that it had.
+bool ResultValues::is_unchanged(Index texel) const {
+  if (working_.map().coverage[texel] != Coverage::covered) return false;
+  const float *before = working_.straight().values_of(texel), *const after = values_[texel];
+  const int alpha = codes_.alpha_channel();
+  const auto is_same = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  return (!working_.filters_alpha() || is_same(codes_[texel][alpha], after[alpha])) &&
+         std::all_of(working_.channels().begin(), working_.channels().end(),
+                     [&](int c) { return is_same(*before++, after[c]); });
+}
+
+/// What the texel's straight colour is multiplied with in the file.
+float ResultValues::alpha_factor(Index texel, const TextureTile& tile) const {
+  if (!tile.premultiplied) return 1;
+  const int channel = codes_.alpha_channel();
+  const float alpha = values_[texel][channel];
+  // Colour over alpha 0 is emission and was not divided; unless it is new.
+  const bool is_kept = !(codes_[texel][channel] > 0) &&
+                       are_finite(working_.straight().values_of(texel), working_.channels().size());
+  return is_kept || !(alpha > 0) ? 1 : alpha;
+}
+
+void ResultValues::encode_some(const std::vector<Index>& texels, const TextureTile& tile) const {
+  const std::vector<int>& channels = working_.channels();
+  std::vector<float> encoded;
+  encoded.reserve(texels.size() * channels.size());
+  for (const Index t : texels)
+    for (const int c : channels) encoded.push_back(values_[t][c]);
+  to_codes(tile, channels.size(), encoded);
+  const float* next = encoded.data();
+  for (const Index t : texels) {
+    const bool stays = is_unchanged(t);
+    const float factor = alpha_factor(t, tile);
+    for (const int c : channels) {
+      const float code = *next++ * factor;
+      values_[t][c] = stays ? codes_[t][c] : code;
+    }
+  }
+}
+
+void ResultValues::encode(const std::vector<Index>& others) const {
+  if (!working_.are_converted()) return;
+  auto other = others.begin();
+  over_tiles([&](Index first, Index count, const TextureTile& tile) {
+    over_blocks(count, [&](std::size_t begin, std::size_t end) {
+      std::vector<Index> covered;
+      for (std::size_t t = first + begin; t < first + end; ++t)
+        if (working_.map().coverage[t] == Coverage::covered) covered.push_back(Index(t));
+      encode_some(covered, tile);
+    });
+    const auto end_of_others = std::lower_bound(other, others.end(), first + count);
+    over_blocks(std::size_t(end_of_others - other), [&](std::size_t begin, std::size_t end) {
+      const std::vector<Index> some(other + std::ptrdiff_t(begin), other + std::ptrdiff_t(end));
+      encode_some(some, tile);
+    });
+    other = end_of_others;
+  });
+}
+
+}  // namespace onmesh
