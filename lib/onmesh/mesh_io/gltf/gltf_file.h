@@ -69,6 +69,8 @@ class GltfFile {
   /// that would become more than kMostPerByte times as large (and 128 MiB) is refused.
   /// \throw InputError naming the place
   void take_memory(double bytes, const JsonPlace& place);
+  /// Bytes that may still be taken.
+  double memory_left() const { return memory_left_; }
 
  private:
   void read_chunks(std::string_view content);

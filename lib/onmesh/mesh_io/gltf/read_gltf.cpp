@@ -93,7 +93,8 @@ class GltfReader {
   std::vector<Part> read_mesh_parts(Index mesh);
   std::optional<Part> read_part(const JsonPlace& primitive);
   void read_plain(const JsonPlace& primitive, std::uint64_t mode, Part& part);
-  void read_draco(const JsonPlace& primitive, const JsonPlace& packed, Part& part);
+  void read_draco(const JsonPlace& primitive, std::uint64_t mode, const JsonPlace& packed,
+                  Part& part);
   std::optional<Index> uv_accessor(const JsonPlace& primitive, Index material);
   std::vector<Vec2> place_uvs(const std::vector<double>& stored, Index material);
   void note_attributes(const JsonPlace& primitive);
@@ -243,7 +244,9 @@ void GltfReader::read_plain(const JsonPlace& primitive, std::uint64_t mode, Part
   }
 }
 
-void GltfReader::read_draco(const JsonPlace& primitive, const JsonPlace& packed, Part& part) {
+void GltfReader::read_draco(const JsonPlace& primitive, std::uint64_t mode, const JsonPlace& packed,
+                            Part& part) {
+  if (mode == 6) packed.fail("is for triangles and strips, not for fans");
   const JsonPlace ids = packed.at("attributes");
   const auto accessor = [&](Index number) { return describe_accessor(file_, number); };
   const GltfAccessor position = accessor(primitive.at("attributes").index("POSITION", accessors_));
@@ -255,8 +258,10 @@ void GltfReader::read_draco(const JsonPlace& primitive, const JsonPlace& packed,
     wanted.push_back({ids.at(("TEXCOORD_" + std::to_string(set)).c_str()).whole_number(), 2});
   }
   const Index view = packed.index("bufferView", file_.root().size_of("bufferViews"));
-  file_.take_memory(64.0 * double(position.count) + 16.0 * double(corners.count), packed);
-  DracoMesh mesh = unpack_draco(file_.view(view), packed, wanted, position.count, corners.count);
+  file_.take_memory(16.0 * double(corners.count), packed);
+  DracoMesh mesh = unpack_draco(file_.view(view), packed, wanted,
+                                {position.count, corners.count, mode == 5, file_.memory_left()});
+  file_.take_memory(mesh.unpacked_bytes, packed);
   part.positions = std::move(mesh.attributes[0]);
   part.corners = std::move(mesh.corners);
   if (wanted.size() > 1) part.uvs = place_uvs(mesh.attributes[1], part.material);
@@ -283,8 +288,7 @@ std::optional<Part> GltfReader::read_part(const JsonPlace& primitive) {
   const auto extensions = primitive.find("extensions");
   const auto packed = extensions ? extensions->find(kDracoName) : std::nullopt;
   if (packed && can_read_draco()) {
-    if (mode != 4) packed->fail("is read for plain triangles only");
-    read_draco(primitive, *packed, part);
+    read_draco(primitive, mode, *packed, part);
   } else {
     read_plain(primitive, mode, part);
   }
