@@ -97,6 +97,18 @@ TEST_CASE("objects of any number of members are copied", "[write_gltf]") {
   CHECK_THAT(glb_binary(after), Contains("changed"));
 }
 
+TEST_CASE("a replaced image is the one that its textures show", "[write_gltf]") {
+  const TempFolder folder;
+  GltfBuilder gltf = two_squares();
+  const json other = {{"KHR_texture_basisu", {{"source", 1}}}, {"ACME_notes", {{"by", "x"}}}};
+  for (json& texture : gltf.json["textures"]) texture["extensions"] = other;
+  const fs::path source = folder.file("in.glb", gltf.glb()), path = folder.path() / "out.glb";
+  write_gltf(path, source, {{(source / "image0.png").string(), "changed"}});
+  const json after = gltf_json(read_file(path));
+  CHECK(after["textures"][0]["extensions"] == json{{"ACME_notes", {{"by", "x"}}}});
+  CHECK(after["textures"][1]["extensions"] == other);
+}
+
 TEST_CASE("images whose bytes others speak of are put behind", "[write_gltf]") {
   const TempFolder folder;
   GltfBuilder gltf = two_squares();

@@ -20,6 +20,9 @@ struct Material {
   std::optional<WrapModes> wrap = std::nullopt;
   /// What the texture's file holds if it is inside the mesh file; `texture` is only a name then.
   std::shared_ptr<const std::string> content = nullptr;
+  /// Where the mesh file names the texture, for messages: "scene.glb: images[0].uri". Empty = the
+  /// material's name is enough to find it.
+  std::string place = {};
 };
 
 /// Positions and UVs are indexed apart: position indices give connectivity, UV indices stay per

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -93,6 +94,7 @@ class GltfWriter {
 
  private:
   void replace_one(Index image, const std::string& content);
+  void show_images(const std::set<Index>& images);
   void put_beside(const JsonPlace& uri, JsonText::Object holder, std::string content);
   std::vector<fs::path> named_files();
   fs::path target_of(const std::string& uri);
@@ -130,16 +132,31 @@ void GltfWriter::replace_one(Index image, const std::string& content) {
   }
 }
 
+/// Textures whose images are replaced show these, not an extension's that was not read.
+void GltfWriter::show_images(const std::set<Index>& images) {
+  const std::size_t textures = file_.root().size_of("textures");
+  for (Index i = 0; i < textures; ++i) {
+    const GltfTexture texture = describe_texture(file_, i);
+    if (texture.unread.empty() || !images.contains(texture.image)) continue;
+    nlohmann::json extensions = file_.element("textures", i).at("extensions").value();
+    for (const std::string& extension : texture.unread) extensions.erase(extension);
+    text_.set(text_.element("textures", i), "extensions", extensions);
+  }
+}
+
 void GltfWriter::replace(const std::vector<GltfImage>& images) {
+  std::set<Index> replaced;
   for (const GltfImage& changed : images) {
     bool is_known = false;
     for (Index i = 0; i < images_.size(); ++i) {
       if (images_.name(i) != changed.texture) continue;
       replace_one(i, changed.content);
+      replaced.insert(i);
       is_known = true;
     }
     if (!is_known) throw InputError(changed.texture + ": is no image of " + source_.string());
   }
+  show_images(replaced);
   if (views_.empty()) return;
   buffers_ = replace_views(file_, views_, text_);
   for (const auto& [i, bytes] : buffers_) {

@@ -1,5 +1,6 @@
 #include "onmesh/mesh_io/gltf/materials.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -64,11 +65,13 @@ class SlotReader {
 
   /// \param info what the material says of the texture (3.9.2)
   void read(const JsonPlace& info, Material& material, GltfSlotUvs& uvs);
+  void warn_of_unread() const;
 
  private:
   GltfFile& file_;
   const ReadOptions& options_;
   GltfImages images_;
+  std::map<Index, std::string> unread_;  ///< textures with extensions that are not read
 };
 
 void SlotReader::read(const JsonPlace& info, Material& material, GltfSlotUvs& uvs) {
@@ -92,7 +95,19 @@ void SlotReader::read(const JsonPlace& info, Material& material, GltfSlotUvs& uv
   uvs.has_texture = true;
   material.texture = images_.name(texture.image);
   material.content = images_.content(texture.image);
+  material.place = images_.place_name(texture.image);
   material.wrap = texture.wrap;
+  if (!texture.unread.empty()) unread_.emplace(number, quote(texture.unread[0]));
+}
+
+void SlotReader::warn_of_unread() const {
+  if (unread_.empty()) return;
+  const auto& [number, extension] = *unread_.begin();
+  const std::size_t others = unread_.size() - 1;
+  file_.report().warnings.push_back(
+      file_.element("textures", number).name() + ": its image of the extension " + extension +
+      " is not read, the one for programs without it is taken" +
+      (others == 0 ? "" : "; so it is for " + count_text(others, "other texture", "others")));
 }
 
 }  // namespace
@@ -111,6 +126,7 @@ GltfMaterials read_gltf_materials(GltfFile& file, const ReadOptions& options) {
     result.materials.push_back(std::move(material));
     result.uvs.push_back(uvs);
   }
+  slot.warn_of_unread();
   return result;
 }
 
