@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "atlas.h"
+#include "compare_gltf.h"
 #include "format.h"
 #include "interruption.h"
 #include "messages.h"
@@ -14,6 +15,7 @@
 #include "onmesh/image/image_io.h"
 #include "onmesh/measure/image_difference.h"
 #include "onmesh/measure/seam_error.h"
+#include "onmesh/mesh_io/write_gltf.h"
 #include "report.h"
 #include "shared_options.h"
 #include "subcommands.h"
@@ -27,21 +29,22 @@ Command compare_command() {
   command.name = "compare";
   command.synopsis = "A B [--mesh MESH] [--fail DB] [options]";
   command.summary =
-      "Measures how two textures of one size differ, or two sets of them: folders, or names with\n"
-      "<UDIM>, compared file by file. With their mesh only the texels that its charts cover "
-      "count,\n"
-      "and the seam error of both is measured: the difference of bilinear look-ups on both sides "
-      "of\n"
-      "every seam edge, also between textures.";
+      "Measures how two textures of one size differ, or two sets of them: folders, names with\n"
+      "<UDIM>, or glTF files, compared image by image. With their mesh only the texels that its\n"
+      "charts cover count, and the seam error of both is measured: the difference of bilinear\n"
+      "look-ups on both sides of every seam edge, also between textures.";
   command.examples =
       "  onmesh compare cube.png filtered.png\n"
       "  onmesh compare cube.png filtered.png --mesh cube.obj --json\n"
       "  onmesh compare textures/ filtered/ --mesh figure.obj\n"
+      "  onmesh compare scene.glb filtered.glb --slot occlusion\n"
       "  onmesh compare expected.exr filtered.exr --fail 60\n";
   auto add = command.options.add_options();
   add("a", text());
   add("b", text());
-  add("mesh", text(), "the mesh that wears the textures; of sets, all that its materials name");
+  add("mesh", text(),
+      "the mesh that wears the textures; of sets, all that its materials name; of glTF files A by "
+      "default");
   add("material", text(), "only the faces of this material; all = every face with UVs");
   add_wrap_option(command.options);
   add("fail", text(), "exit with 1 if the PSNR is below this many dB");
@@ -56,8 +59,8 @@ Command compare_command() {
 
 namespace {
 
-Image read_other(const std::string& path, const std::string& first, const Image& like) {
-  Image image = read_texture(path);
+void require_like(const Image& image, const std::string& path, const Image& like,
+                  const std::string& first) {
   const auto size = [](const Image& i) {
     return std::to_string(i.width) + " x " + std::to_string(i.height) + " with " +
            count_text(std::uint64_t(i.channels), "channel", "channels");
@@ -65,7 +68,6 @@ Image read_other(const std::string& path, const std::string& first, const Image&
   if (size(image) != size(like))
     throw InputError(path + ": " + size(image) + " cannot be compared with " + first + ": " +
                      size(like));
-  return image;
 }
 
 /// Two files that are compared.
@@ -158,6 +160,7 @@ TextureSet set_of_mesh(const TriangleMesh& mesh, std::vector<Pair>& pairs,
 }
 
 struct Comparison {
+  std::string mesh;  ///< if there is one
   std::vector<Pair> pairs;
   std::vector<Image> a, b;             ///< per pair
   std::vector<ImageDifference> parts;  ///< per pair
@@ -194,19 +197,53 @@ void compare_on_mesh(const Arguments& arguments, const InputMesh& input, Texture
   });
 }
 
+/// The images of the next pair.
+void add_images(Image a, Image b, Comparison& result) {
+  const Pair& pair = result.pairs[result.a.size()];
+  require_like(b, pair.b.string(), a, pair.a.string());
+  result.a.push_back(std::move(a));
+  result.b.push_back(std::move(b));
+  if (result.a.back().channels != result.a[0].channels)
+    throw InputError(pair.a.string() + ": has other channels than " + result.pairs[0].a.string());
+  check_interrupted();
+}
+
 void read_pairs(Comparison& result) {
   for (const Pair& pair : result.pairs) {
-    result.a.push_back(read_texture(pair.a));
-    result.b.push_back(read_other(pair.b.string(), pair.a.string(), result.a.back()));
-    if (result.a.back().channels != result.a[0].channels)
-      throw InputError(pair.a.string() + ": has other channels than " + result.pairs[0].a.string());
-    check_interrupted();
+    Image a = read_texture(pair.a);
+    add_images(std::move(a), read_texture(pair.b), result);
   }
+}
+
+/// The images of two glTF files, on a mesh that wears them.
+void compare_gltf(const Arguments& arguments, Comparison& result) {
+  GltfPairs gltf = pair_gltf_images(arguments);
+  result.mesh = gltf.mesh.path;
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < gltf.a.size(); ++i) {
+    result.pairs.push_back({gltf.a[i].path, gltf.b[i].path});
+    Image a = read_texture(gltf.a[i], warnings);
+    add_images(std::move(a), read_texture(gltf.b[i], warnings), result);
+    refuse_image_bombs({gltf.a, {}, {}, {}}, result.a);
+    refuse_image_bombs({gltf.b, {}, {}, {}}, result.b);
+  }
+  warn(warnings);
+  compare_on_mesh(arguments, gltf.mesh, std::move(gltf.set), result);
+}
+
+bool are_gltf(const Arguments& arguments) {
+  return is_gltf_name(arguments.argument("a")) && is_gltf_name(arguments.argument("b"));
 }
 
 Comparison compare(const Arguments& arguments) {
   Comparison result;
+  if (are_gltf(arguments)) {
+    compare_gltf(arguments, result);
+    result.all = together(result.parts, &result.worst);
+    return result;
+  }
   result.pairs = pairs_of(arguments.argument("a"), arguments.argument("b"));
+  result.mesh = arguments.optional_text("mesh").value_or("");
   if (arguments.has("mesh")) {
     const auto material = arguments.optional_text("material");
     const InputMesh input = read_input_mesh(arguments.text("mesh"), arguments);
@@ -251,7 +288,7 @@ void print_json(const Arguments& arguments, const Comparison& result, std::optio
   nlohmann::json json = new_report("compare");
   json["a"] = arguments.argument("a");
   json["b"] = arguments.argument("b");
-  json["mesh"] = text_or_null(arguments.optional_text("mesh").value_or(""));
+  json["mesh"] = text_or_null(result.mesh);
   json["width"] = result.a[0].width;
   json["height"] = result.a[0].height;
   json["channels"] = result.a[0].channels;
@@ -307,8 +344,10 @@ int run_compare(const Arguments& arguments) {
   const std::string path_a = arguments.argument("a"), path_b = arguments.argument("b");
   std::optional<double> least;
   if (arguments.has("fail")) least = arguments.number("fail", -1000, 1000);
-  arguments.require_with({"wrap", "seams", "material", "weld", "confine", "slot", "uv-set"},
-                         "mesh");
+  if (!are_gltf(arguments)) {
+    arguments.require_with({"wrap", "seams", "material", "weld", "confine", "slot", "uv-set"},
+                           "mesh");
+  }
   wrap_of(arguments);
 
   const Comparison result = compare(arguments);
