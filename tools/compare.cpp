@@ -1,5 +1,6 @@
 // onmesh compare: how two textures differ, and how visible their seams are.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -7,13 +8,18 @@
 #include <optional>
 
 #include "atlas.h"
+#include "compare_gltf.h"
 #include "format.h"
 #include "interruption.h"
 #include "messages.h"
+#include "onmesh/atlas/chart_mask.h"
 #include "onmesh/base/text.h"
 #include "onmesh/image/image_io.h"
+#include "onmesh/image/lookup.h"
 #include "onmesh/measure/image_difference.h"
+#include "onmesh/measure/light_difference.h"
 #include "onmesh/measure/seam_error.h"
+#include "onmesh/mesh_io/write_gltf.h"
 #include "report.h"
 #include "shared_options.h"
 #include "subcommands.h"
@@ -27,23 +33,28 @@ Command compare_command() {
   command.name = "compare";
   command.synopsis = "A B [--mesh MESH] [--fail DB] [options]";
   command.summary =
-      "Measures how two textures of one size differ, or two sets of them: folders, or names with\n"
-      "<UDIM>, compared file by file. With their mesh only the texels that its charts cover "
-      "count,\n"
-      "and the seam error of both is measured: the difference of bilinear look-ups on both sides "
-      "of\n"
-      "every seam edge, also between textures.";
+      "Measures how two textures of one size differ, or two sets of them: folders, names with\n"
+      "<UDIM>, or glTF files, compared image by image. With their mesh only the texels that its\n"
+      "charts cover count, and the seam error of both is measured: the difference of bilinear\n"
+      "look-ups on both sides of every seam edge, also between textures.";
   command.examples =
       "  onmesh compare cube.png filtered.png\n"
       "  onmesh compare cube.png filtered.png --mesh cube.obj --json\n"
       "  onmesh compare textures/ filtered/ --mesh figure.obj\n"
+      "  onmesh compare scene.glb filtered.glb --slot occlusion\n"
       "  onmesh compare expected.exr filtered.exr --fail 60\n";
   auto add = command.options.add_options();
   add("a", text());
   add("b", text());
-  add("mesh", text(), "the mesh that wears the textures; of sets, all that its materials name");
+  add("mesh", text(),
+      "the mesh that wears the textures; of sets, all that its materials name; of glTF files A by "
+      "default");
   add("material", text(), "only the faces of this material; all = every face with UVs");
   add_wrap_option(command.options);
+  add("mask", text(),
+      "an image of any size: texels where it is 0 are left out; of several textures one each, with "
+      "<UDIM> or {stem} in its name");
+  add_colour_space_options(command.options);
   add("fail", text(), "exit with 1 if the PSNR is below this many dB");
   add_weld_option(command.options);
   add_gltf_options(command.options);
@@ -56,8 +67,8 @@ Command compare_command() {
 
 namespace {
 
-Image read_other(const std::string& path, const std::string& first, const Image& like) {
-  Image image = read_texture(path);
+void require_like(const Image& image, const std::string& path, const Image& like,
+                  const std::string& first) {
   const auto size = [](const Image& i) {
     return std::to_string(i.width) + " x " + std::to_string(i.height) + " with " +
            count_text(std::uint64_t(i.channels), "channel", "channels");
@@ -65,7 +76,6 @@ Image read_other(const std::string& path, const std::string& first, const Image&
   if (size(image) != size(like))
     throw InputError(path + ": " + size(image) + " cannot be compared with " + first + ": " +
                      size(like));
-  return image;
 }
 
 /// Two files that are compared.
@@ -158,10 +168,14 @@ TextureSet set_of_mesh(const TriangleMesh& mesh, std::vector<Pair>& pairs,
 }
 
 struct Comparison {
+  std::string mesh;  ///< if there is one
   std::vector<Pair> pairs;
   std::vector<Image> a, b;             ///< per pair
+  std::vector<Image> masks;            ///< the same, or none at all
   std::vector<ImageDifference> parts;  ///< per pair
+  std::vector<LightDifference> light;  ///< the same in linear light
   ImageDifference all;
+  LightDifference all_light;
   std::size_t worst = 0;                      ///< pair with the largest difference
   std::optional<SeamError> seams_a, seams_b;  ///< with a mesh
 
@@ -170,6 +184,58 @@ struct Comparison {
     return pairs.size() == 1 ? "" : " of " + pairs[worst].b.filename().string();
   }
 };
+
+/// Texels that a mask shows, without a mesh: looked up bilinearly.
+std::vector<unsigned char> shown_texels(const Image& mask, const Image& like) {
+  std::vector<unsigned char> shown(std::size_t(like.width) * std::size_t(like.height));
+  const int channel = mask.range_channels()[0];
+  std::vector<float> values(std::size_t(mask.channels));
+  const WrapModes clamp{Wrap::clamp, Wrap::clamp};
+  for (int y = 0; y < like.height; ++y) {
+    for (int x = 0; x < like.width; ++x) {
+      const Vec2 uv((x + 0.5) / like.width, 1 - (y + 0.5) / like.height);
+      bilinear(mask, clamp, uv, values.data());
+      shown[std::size_t(y) * std::size_t(like.width) + std::size_t(x)] =
+          values[std::size_t(channel)] > 0 ? 1 : 0;
+    }
+  }
+  return shown;
+}
+
+/// Adds the figures of the next pair.
+/// \param counted per texel, as difference() takes it
+void compare_pair(const Arguments& arguments, const std::vector<unsigned char>& counted,
+                  Comparison& result) {
+  const std::size_t i = result.parts.size();
+  if (std::count(counted.begin(), counted.end(), 0) == std::ptrdiff_t(counted.size()) &&
+      !counted.empty()) {
+    throw InputError(result.pairs[i].a.string() + ": no texel is left to compare");
+  }
+  const Image &a = result.a[i], &b = result.b[i];
+  result.parts.push_back(
+      naming(result.pairs[i].b.string(), [&] { return difference(a, b, counted); }));
+  const ColourSpaceRequest request = colour_space_request(arguments, {}, false);
+  result.light.push_back(light_difference(a, b, choose_colour_space(a, request).space.get(),
+                                          choose_colour_space(b, request).space.get(), counted));
+  check_interrupted();
+}
+
+/// Whose texels count: covered by the mesh, and not hidden by masks.
+std::vector<std::vector<unsigned char>> counted_texels(const TriangleMesh& mesh,
+                                                       const TexelMap& map,
+                                                       const Comparison& result) {
+  std::vector<const Image*> masks;
+  for (std::size_t i = 0; i < result.pairs.size(); ++i)
+    masks.push_back(result.masks.empty() ? nullptr : &result.masks[i]);
+  const std::vector<float> shown = chart_mask(mesh, map, masks);
+  std::vector<std::vector<unsigned char>> counted;
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+    counted.push_back(covered_texels(map, Index(i)));
+    for (std::size_t t = 0; t < counted[i].size() && !shown.empty(); ++t)
+      if (!(shown[map.tiles[i].first + t] > 0)) counted[i][t] = 0;
+  }
+  return counted;
+}
 
 /// On the texels that the mesh's charts cover, and at its seams.
 void compare_on_mesh(const Arguments& arguments, const InputMesh& input, TextureSet set,
@@ -182,9 +248,9 @@ void compare_on_mesh(const Arguments& arguments, const InputMesh& input, Texture
         make_texel_map(mesh, texel_tiles(textures.tiles), std::move(set.tile_of_face));
     if (map.claims.empty()) throw InputError("no texel is covered, so there is nothing to compare");
     std::vector<const Image*> a, b;
+    const auto counted = counted_texels(mesh, map, result);
     for (std::size_t i = 0; i < result.pairs.size(); ++i) {
-      result.parts.push_back(difference(result.a[i], result.b[i], covered_texels(map, Index(i))));
-      check_interrupted();
+      compare_pair(arguments, counted[i], result);
       a.push_back(&result.a[i]);
       b.push_back(&result.b[i]);
     }
@@ -194,42 +260,104 @@ void compare_on_mesh(const Arguments& arguments, const InputMesh& input, Texture
   });
 }
 
-void read_pairs(Comparison& result) {
+/// The images of the next pair.
+void add_images(Image a, Image b, Comparison& result) {
+  const Pair& pair = result.pairs[result.a.size()];
+  require_like(b, pair.b.string(), a, pair.a.string());
+  result.a.push_back(std::move(a));
+  result.b.push_back(std::move(b));
+  if (result.a.back().channels != result.a[0].channels)
+    throw InputError(pair.a.string() + ": has other channels than " + result.pairs[0].a.string());
+  check_interrupted();
+}
+
+/// The mask of each pair, if one was given.
+void read_masks(const Arguments& arguments, Comparison& result) {
+  if (!arguments.has("mask")) return;
+  const std::string name = arguments.text("mask");
+  if (result.pairs.size() > 1 && !has_placeholder(name)) {
+    throw UsageError("--mask: " + name + ": there are " + std::to_string(result.pairs.size()) +
+                     " textures; name a mask for each, with <UDIM> or {stem}");
+  }
   for (const Pair& pair : result.pairs) {
-    result.a.push_back(read_texture(pair.a));
-    result.b.push_back(read_other(pair.b.string(), pair.a.string(), result.a.back()));
-    if (result.a.back().channels != result.a[0].channels)
-      throw InputError(pair.a.string() + ": has other channels than " + result.pairs[0].a.string());
+    const auto tile = tile_name(pair.a);
+    const int udim = tile ? tile->tile_of(pair.a).value_or(0) : 0;
+    const auto path = fill_placeholders(name, pair.a, "", udim);
+    result.masks.push_back(read_texture(path));
+    if (result.masks.back().range_channels().empty())
+      throw InputError(path.string() + ": has no channel but alpha, so it is nothing for --mask");
     check_interrupted();
   }
 }
 
+void read_pairs(const Arguments& arguments, Comparison& result) {
+  for (const Pair& pair : result.pairs) {
+    Image a = read_texture(pair.a);
+    add_images(std::move(a), read_texture(pair.b), result);
+  }
+  read_masks(arguments, result);
+}
+
+/// The images of two glTF files, on a mesh that wears them.
+void compare_gltf(const Arguments& arguments, Comparison& result) {
+  GltfPairs gltf = pair_gltf_images(arguments);
+  result.mesh = gltf.mesh.path;
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < gltf.a.size(); ++i) {
+    result.pairs.push_back({gltf.a[i].path, gltf.b[i].path});
+    Image a = read_texture(gltf.a[i], warnings);
+    add_images(std::move(a), read_texture(gltf.b[i], warnings), result);
+    refuse_image_bombs({gltf.a, {}, {}, {}}, result.a);
+    refuse_image_bombs({gltf.b, {}, {}, {}}, result.b);
+  }
+  warn(warnings);
+  read_masks(arguments, result);
+  compare_on_mesh(arguments, gltf.mesh, std::move(gltf.set), result);
+}
+
+void put_together(Comparison& result) {
+  result.all = together(result.parts, &result.worst);
+  result.all_light = together(result.light);
+}
+
+bool are_gltf(const Arguments& arguments) {
+  return is_gltf_name(arguments.argument("a")) && is_gltf_name(arguments.argument("b"));
+}
+
 Comparison compare(const Arguments& arguments) {
   Comparison result;
+  if (are_gltf(arguments)) {
+    compare_gltf(arguments, result);
+    put_together(result);
+    return result;
+  }
   result.pairs = pairs_of(arguments.argument("a"), arguments.argument("b"));
+  result.mesh = arguments.optional_text("mesh").value_or("");
   if (arguments.has("mesh")) {
     const auto material = arguments.optional_text("material");
     const InputMesh input = read_input_mesh(arguments.text("mesh"), arguments);
     warn(input.read.warnings);
     check_interrupted();
     if (result.pairs.size() == 1) {
-      read_pairs(result);
+      read_pairs(arguments, result);
       TextureSet set = set_of_pair(input.cleaned, result.pairs[0], material);
       keep_written(set);
       compare_on_mesh(arguments, input, std::move(set), result);
     } else {
       TextureSet set = set_of_mesh(input.cleaned, result.pairs, material);
-      read_pairs(result);
+      read_pairs(arguments, result);
       compare_on_mesh(arguments, input, std::move(set), result);
     }
   } else {
-    read_pairs(result);
+    read_pairs(arguments, result);
     for (std::size_t i = 0; i < result.pairs.size(); ++i) {
-      result.parts.push_back(
-          naming(result.pairs[i].b.string(), [&] { return difference(result.a[i], result.b[i]); }));
+      compare_pair(arguments,
+                   result.masks.empty() ? std::vector<unsigned char>{}
+                                        : shown_texels(result.masks[i], result.a[i]),
+                   result);
     }
   }
-  result.all = together(result.parts, &result.worst);
+  put_together(result);
   check_interrupted();
   return result;
 }
@@ -243,6 +371,15 @@ nlohmann::json difference_json(const ImageDifference& d, int width) {
           {"worst_texel", {d.worst_texel % Index(width), d.worst_texel / Index(width)}}};
 }
 
+nlohmann::json light_json(const LightDifference& light) {
+  const auto error = [](const LightError& e) {
+    return nlohmann::json{{"rel_mse", e.rel_mse}, {"log_psnr", e.log_psnr}};
+  };
+  nlohmann::json json = error(light.colour);
+  json["alpha"] = light.alpha ? error(*light.alpha) : nlohmann::json();
+  return json;
+}
+
 void print_json(const Arguments& arguments, const Comparison& result, std::optional<double> least,
                 bool passed) {
   const auto seams = [](const std::optional<SeamError>& s) {
@@ -251,14 +388,16 @@ void print_json(const Arguments& arguments, const Comparison& result, std::optio
   nlohmann::json json = new_report("compare");
   json["a"] = arguments.argument("a");
   json["b"] = arguments.argument("b");
-  json["mesh"] = text_or_null(arguments.optional_text("mesh").value_or(""));
+  json["mesh"] = text_or_null(result.mesh);
   json["width"] = result.a[0].width;
   json["height"] = result.a[0].height;
   json["channels"] = result.a[0].channels;
   json.update(difference_json(result.all, result.width()));
+  json["light"] = light_json(result.all_light);
   json["files"] = nlohmann::json::array();
   for (std::size_t i = 0; i < result.pairs.size(); ++i) {
     nlohmann::json file = difference_json(result.parts[i], result.a[i].width);
+    file["light"] = light_json(result.light[i]);
     file["a"] = result.pairs[i].a.string();
     file["b"] = result.pairs[i].b.string();
     json["files"].push_back(std::move(file));
@@ -280,8 +419,15 @@ void seam_row(const char* name, const std::optional<SeamError>& s) {
                 format_count(s->edges) + " edges");
 }
 
-std::string psnr_text(const ImageDifference& d) {
-  return d.max == 0 ? "infinite, all are equal" : format_number(d.psnr) + " dB";
+std::string decibels_text(double psnr) {
+  return std::isfinite(psnr) ? format_number(psnr) + " dB" : "infinite, all are equal";
+}
+
+std::string psnr_text(const ImageDifference& d) { return decibels_text(d.psnr); }
+
+void light_rows(const std::string& of, const LightError& error) {
+  row(of + "relMSE", format_number(error.rel_mse));
+  row(of + "logPSNR", decibels_text(error.log_psnr));
 }
 
 void print_text(const Comparison& result) {
@@ -297,6 +443,8 @@ void print_text(const Comparison& result) {
              std::to_string(d.worst_texel / Index(result.width())) + result.worst_file();
   }
   row("max error", worst);
+  light_rows("", result.all_light.colour);
+  if (result.all_light.alpha) light_rows("alpha ", *result.all_light.alpha);
   seam_row("seams of A", result.seams_a);
   seam_row("seams of B", result.seams_b);
 }
@@ -307,8 +455,10 @@ int run_compare(const Arguments& arguments) {
   const std::string path_a = arguments.argument("a"), path_b = arguments.argument("b");
   std::optional<double> least;
   if (arguments.has("fail")) least = arguments.number("fail", -1000, 1000);
-  arguments.require_with({"wrap", "seams", "material", "weld", "confine", "slot", "uv-set"},
-                         "mesh");
+  if (!are_gltf(arguments)) {
+    arguments.require_with({"wrap", "seams", "material", "weld", "confine", "slot", "uv-set"},
+                           "mesh");
+  }
   wrap_of(arguments);
 
   const Comparison result = compare(arguments);

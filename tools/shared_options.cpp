@@ -9,10 +9,13 @@ namespace onmesh::tools {
 namespace {
 
 void require_gltf(const Arguments& arguments, const std::string& option) {
-  if (arguments.given(option) && !is_gltf_name(arguments.text("mesh"))) {
-    throw UsageError(dashed(option) + ": only for glTF, and " + arguments.text("mesh") +
-                     " is another mesh");
-  }
+  const auto is_gltf = [&](const char* name) {
+    return arguments.has(name) && is_gltf_name(arguments.text(name));
+  };
+  // The textures are the mesh's, or those of files that are compared.
+  if (!arguments.given(option) || is_gltf("mesh") || is_gltf("a")) return;
+  throw UsageError(dashed(option) + ": only for glTF, and " + arguments.text("mesh") +
+                   " is another mesh");
 }
 
 }  // namespace

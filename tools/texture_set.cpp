@@ -26,13 +26,25 @@ bool is_file(const fs::path& path) {
   return fs::exists(path, error) && !fs::is_directory(path, error);
 }
 
-/// What a texture's file holds if it is inside the mesh file; null if it is a file.
-std::shared_ptr<const std::string> content_inside(const TriangleMesh& mesh, const fs::path& path) {
-  const auto inside =
-      std::find_if(mesh.materials.begin(), mesh.materials.end(), [&](const Material& material) {
-        return material.content && path == fs::path(material.texture);
-      });
-  return inside == mesh.materials.end() ? nullptr : inside->content;
+/// What the mesh knows of a texture: that of the first material that names it, else nothing.
+Material named_texture(const TriangleMesh& mesh, const fs::path& path) {
+  const auto found =
+      std::find_if(mesh.materials.begin(), mesh.materials.end(),
+                   [&](const Material& material) { return path == fs::path(material.texture); });
+  return found == mesh.materials.end() ? Material{} : *found;
+}
+
+/// Calls work(); its errors say first where the mesh file names the texture.
+template <class Work>
+auto naming_place(const std::string& place, const Work& work) {
+  const std::string start = place.empty() ? "" : place + ": ";
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(start + error.what());
+  } catch (const FileError& error) {
+    throw FileError(start + error.what());
+  }
 }
 
 /// Materials that some face uses.
@@ -146,7 +158,8 @@ void SetBuilder::add(const Group& group) {
   const std::vector<Index> faces = faces_of(group);
   const auto is_beyond = [&](Index f) { return square_of(mesh_, f) != std::pair(0.0, 0.0); };
   const std::optional<TileName> name = tile_name(group.path);
-  const bool is_tiled = name && !content_inside(mesh_, group.path) &&
+  const Material texture = named_texture(mesh_, group.path);
+  const bool is_tiled = name && !texture.content &&
                         (name->is_pattern || std::any_of(faces.begin(), faces.end(), is_beyond));
   if (is_tiled) {
     add_tiles(group, *name, faces);
@@ -154,13 +167,14 @@ void SetBuilder::add(const Group& group) {
   }
   const std::string material =
       group.materials.empty() ? "" : mesh_.materials[group.materials[0]].name;
-  const auto content = content_inside(mesh_, group.path);
-  if (!content && !is_file(group.path)) {
-    throw FileError((material.empty() ? "" : "material " + material + ": ") + group.path.string() +
+  if (!texture.content && !is_file(group.path)) {
+    throw FileError((texture.place.empty() ? "" : texture.place + ": ") +
+                    (material.empty() ? "" : "material " + material + ": ") + group.path.string() +
                     ": the texture does not exist");
   }
   for (const Index f : faces) set_.tile_of_face[f] = Index(set_.textures.size());
-  set_.textures.push_back({group.path, material, 0, group.is_written, content});
+  set_.textures.push_back(
+      {group.path, material, 0, group.is_written, texture.content, Role::unknown, texture.place});
 }
 
 void SetBuilder::add_tiles(const Group& group, const TileName& name,
@@ -396,9 +410,11 @@ std::vector<Index> faces_of_material(const TriangleMesh& mesh,
 }
 
 Image read_texture(const SetTexture& texture, std::vector<std::string>& warnings) {
-  if (!texture.content) return read_texture(texture.path, warnings);
-  const QuietLibraries quiet;
-  return read_image_content(*texture.content, texture.path, &warnings);
+  return naming_place(texture.place, [&] {
+    if (!texture.content) return read_texture(texture.path, warnings);
+    const QuietLibraries quiet;
+    return read_image_content(*texture.content, texture.path, &warnings);
+  });
 }
 
 void refuse_image_bombs(const TextureSet& set, const std::vector<Image>& images) {

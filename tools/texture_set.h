@@ -22,6 +22,7 @@ struct SetTexture {
   bool is_written = true;      ///< else it is context: read, filtered, not written
   std::shared_ptr<const std::string> content = nullptr;  ///< if it is inside the mesh file
   Role role = Role::unknown;                             ///< as map.png@data says
+  std::string place = {};  ///< where a mesh file names it, as Material::place
 
   int column() const { return udim == 0 ? 0 : (udim - 1001) % 10; }
   int row() const { return udim == 0 ? 0 : (udim - 1001) / 10; }
@@ -66,7 +67,7 @@ std::vector<Index> faces_of_material(const TriangleMesh& mesh,
 
 /// The image of a texture.
 /// \param warnings receives what is odd about its file
-/// \throw FileError, InputError as read_image()
+/// \throw FileError, InputError as read_image(), naming its place in the mesh file
 Image read_texture(const SetTexture& texture, std::vector<std::string>& warnings);
 
 /// What is inside a mesh file must not become much larger than that, all together.

@@ -47,6 +47,25 @@ TEST_CASE("a shared UV does not join what shares no edge of the surface", "[char
   CHECK(charts_of(mesh).chart_of_face == std::vector<Index>{0, 0, 0, 1});
 }
 
+TEST_CASE("any number of faces in one place are the charts of their images", "[charts]") {
+  // Copies of one strip, with two images in turns: neighbours of an edge are all of them.
+  constexpr std::size_t kCopies = 20'000;
+  const TriangleMesh one = strip();
+  TriangleMesh mesh = one;
+  std::vector<Index> images(one.faces.size(), 0);
+  for (std::size_t i = 1; i < kCopies; ++i) {
+    mesh.faces.insert(mesh.faces.end(), one.faces.begin(), one.faces.end());
+    mesh.face_uvs.insert(mesh.face_uvs.end(), one.face_uvs.begin(), one.face_uvs.end());
+    images.resize(mesh.faces.size(), Index(i % 2));
+  }
+  // Each face beside each takes 10^10 steps: minutes.
+  const Charts charts = charts_of(mesh, images);
+  CHECK(charts.count == 2);
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    if (charts.chart_of_face[f] != images[f]) FAIL("face " << f << " is in the other chart");
+  }
+}
+
 TEST_CASE("all faces around an edge that have its UVs share a chart", "[charts]") {
   // Three faces on one edge, the second with UVs of its own.
   TriangleMesh mesh =

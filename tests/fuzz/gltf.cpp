@@ -1,4 +1,5 @@
 // The first byte of an input chooses slot and UV set, the others are the file.
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "fuzz/input.h"
@@ -26,8 +27,10 @@ void replace_images(const std::string& content) {
     views[file.element("images", i).at("bufferView").whole_number()] = "a changed image";
   }
   if (views.empty()) return;
-  auto document = nlohmann::ordered_json::parse(file.json_text());
-  for (const auto& [buffer, bytes] : replace_views(file, views, document)) {
+  JsonText text(file.json_text());
+  const auto buffers = replace_views(file, views, text);
+  const auto document = nlohmann::json::parse(text.edited());
+  for (const auto& [buffer, bytes] : buffers) {
     for (const auto& [view, replaced] : views) {
       const auto& holder = document["bufferViews"][view];
       if (holder["buffer"] != buffer) continue;

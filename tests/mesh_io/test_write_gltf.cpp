@@ -71,16 +71,42 @@ TEST_CASE("images in a GLB are replaced and nothing else", "[write_gltf]") {
   CHECK(glb_binary(read_file(path)) == glb_binary(before));
 }
 
-TEST_CASE("members keep their order, numbers their values", "[write_gltf]") {
+TEST_CASE("what is not changed keeps its bytes", "[write_gltf]") {
   const TempFolder folder;
   const std::string text =
-      R"({"z":{"b":1.0,"a":0.1},"asset":{"version":"2.0","generator":"g"},)"
-      R"("images":[{"uri":"data:image/png;base64,AAAA"}],"n":[1,-2,3.5,1e-07,true,null,"\u00e4"]})";
+      "{\"z\":{\"b\":1.0,\"a\":0.10, \"a\":1},\"asset\":{\"version\":\"2.0\",\"generator\":\"g\"},"
+      "\"images\":[{\"uri\":\"data:image/png;base64,AAAA\"}],\n"
+      "\t\"n\":[1,-2,3.5E0,1e-07,123456789012345678901234567890,true,null,\"\\u00e4\"]}\n";
   const fs::path source = folder.file("in.gltf", text), path = folder.path() / "out.gltf";
   write_gltf(path, source, {});
-  CHECK(read_file(path) ==
-        R"({"z":{"b":1.0,"a":0.1},"asset":{"version":"2.0","generator":"g"},)"
-        R"("images":[{"uri":"data:image/png;base64,AAAA"}],"n":[1,-2,3.5,1e-07,true,null,"ä"]})");
+  CHECK(read_file(path) == text);
+  write_gltf(path, source, {{(source / "image0.png").string(), "new"}});
+  std::string expected = text;
+  expected.replace(text.find("AAAA"), 4, to_base64("new"));
+  CHECK(read_file(path) == expected);
+}
+
+TEST_CASE("objects of any number of members are copied", "[write_gltf]") {
+  const TempFolder folder;
+  GltfBuilder gltf = two_squares();
+  for (int i = 0; i < 200'000; ++i) gltf.json["extras"][std::to_string(i)] = i;
+  const fs::path source = folder.file("in.glb", gltf.glb()), path = folder.path() / "out.glb";
+  write_gltf(path, source, {{(source / "image0.png").string(), "changed"}});
+  const std::string after = read_file(path);
+  CHECK(gltf_json(after)["extras"] == gltf.json["extras"]);
+  CHECK_THAT(glb_binary(after), Contains("changed"));
+}
+
+TEST_CASE("a replaced image is the one that its textures show", "[write_gltf]") {
+  const TempFolder folder;
+  GltfBuilder gltf = two_squares();
+  const json other = {{"KHR_texture_basisu", {{"source", 1}}}, {"ACME_notes", {{"by", "x"}}}};
+  for (json& texture : gltf.json["textures"]) texture["extensions"] = other;
+  const fs::path source = folder.file("in.glb", gltf.glb()), path = folder.path() / "out.glb";
+  write_gltf(path, source, {{(source / "image0.png").string(), "changed"}});
+  const json after = gltf_json(read_file(path));
+  CHECK(after["textures"][0]["extensions"] == json{{"ACME_notes", {{"by", "x"}}}});
+  CHECK(after["textures"][1]["extensions"] == other);
 }
 
 TEST_CASE("images whose bytes others speak of are put behind", "[write_gltf]") {

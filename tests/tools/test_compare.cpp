@@ -2,8 +2,13 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include "onmesh/base/file_io.h"
 #include "onmesh/image/image_io.h"
+#include "onmesh/procedural/texture.h"
+#include "support/gltf_builder.h"
 #include "tools/tool_checks.h"
 
 using namespace onmesh;
@@ -56,4 +61,50 @@ TEST_CASE("compare with a mesh looks at covered texels and seams only", "[tools]
   CHECK(json["texels"] == map["covered"]);
   CHECK(json["seams_a"]["edges"].get<int>() > 0);
   CHECK(json["seams_a"] == json["seams_b"]);
+}
+
+TEST_CASE("compare of glTF files is that of their images on their mesh", "[tools][compare][gltf]") {
+  const Workspace space;
+  const auto png = [&](Pattern pattern, int size, const std::string& name) {
+    write_image(space / name, make_texture(size, size, pattern, 0.3, 1, 3), {false, 8});
+    return read_file(space / name);
+  };
+  const auto write_glb = [&](const std::string& name, const std::vector<std::string>& images) {
+    GltfBuilder gltf;
+    for (const std::string& image : images) {
+      const int mesh = gltf.add_square(gltf.add_material(image, "m"));
+      gltf.add_node({{"mesh", mesh}, {"translation", {0, 0, double(mesh)}}});
+    }
+    space.file(name, gltf.glb());
+  };
+  const std::string one = png(Pattern::checker, 16, "a.png"),
+                    other = png(Pattern::noise, 16, "b.png");
+  write_glb("a.glb", {one});
+  write_glb("b.glb", {other});
+  auto images = space.must("compare a.png b.png --mesh a.glb --json").json();
+  for (const std::string arguments : {"", " --mesh a.glb", " --mesh b.glb"}) {
+    INFO(arguments);
+    auto json = space.must("compare a.glb b.glb --json" + arguments).json();
+    CHECK(json["files"][0]["a"] == "a.glb/image0.png");
+    CHECK(json["files"][0]["b"] == "b.glb/image0.png");
+    CHECK(json["psnr"].get<double>() > 0);
+    for (const char* const key : {"psnr", "max", "texels", "worst_texel", "seams_a", "seams_b"})
+      CHECK(json[key] == images[key]);
+  }
+  CHECK(space.run("compare a.glb b.glb --fail 90").code == 1);
+  CHECK(space.must("compare a.glb a.glb --json --fail 90").json()["equal"] == true);
+
+  write_glb("two.glb", {one, other});
+  write_glb("turned.glb", {other, one});
+  CHECK(space.must("compare two.glb turned.glb --json").json()["files"].size() == 2);
+  check_refused(space, "compare a.glb two.glb", 3, "two.glb: has 2 images, a.glb has 1");
+  write_glb("wide.glb", {png(Pattern::checker, 32, "wide.png")});
+  check_refused(space, "compare a.glb wide.glb", 3, "wide.glb/image0.png: 32 x 32");
+  GltfBuilder named;
+  named.add_node({{"mesh", named.add_square(named.add_material(one, "m"))}});
+  named.json["images"][0]["name"] = "wood";
+  space.file("named.glb", named.glb());
+  check_refused(space, "compare a.glb named.glb", 3,
+                "named.glb: has no image image0.png, as a.glb");
+  check_refused(space, "compare a.glb b.glb --slot normal", 2, "no texture");
 }

@@ -243,6 +243,26 @@ TEST_CASE("external images of a glTF are written beside the output", "[tools][gl
   check_valid(space / "in.gltf", space / "out.gltf");
 }
 
+TEST_CASE("an image that is missing or damaged is named by its place in the glTF",
+          "[tools][gltf]") {
+  const Workspace space;
+  GltfBuilder gltf = square(space);
+  const auto check = [&](const json& image, int code, const std::string& reason) {
+    gltf.json["images"][0] = image;
+    space.file("m.gltf", gltf.gltf());
+    check_refused(space, "filter m.gltf -o out.gltf --sigma-spatial 2tx", code, reason);
+    CHECK_THAT(space.must("info m.gltf").out, Contains("filter will refuse it: " + reason));
+  };
+  check({{"uri", "wood.png"}}, 4,
+        "m.gltf: images[0].uri: material skin: wood.png: the texture does not exist");
+  space.file("wood.png", "no picture");
+  check({{"uri", "wood.png"}}, 3, "m.gltf: images[0].uri: wood.png: ");
+  check({{"uri", "data:image/png;base64," + to_base64("no picture")}}, 3,
+        "m.gltf: images[0].uri: m.gltf/image0.png: ");
+  check({{"bufferView", gltf.add_view("no picture")}, {"mimeType", "image/png"}}, 3,
+        "m.gltf: images[0].bufferView: m.gltf/image0.png: ");
+}
+
 TEST_CASE("info and view take glTF", "[tools][gltf]") {
   const Workspace space;
   space.file("in.glb", square(space).glb());

@@ -1,6 +1,8 @@
 // Which faces of a chart share an edge or a corner (internal).
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "onmesh/mesh/triangle_mesh.h"
@@ -32,6 +34,31 @@ class UvNeighbours {
     }
   }
 
+  /// Call work(faces) for every edge that several faces have with equal UVs, in ascending order.
+  /// Unlike across_edge() for all faces, it takes no longer where many of them coincide.
+  template <class Work>
+  void each_shared_edge(Work&& work) const {
+    // The edges at a UV, as position, other position, other UV and face.
+    std::vector<std::array<Index, 4>> edges;
+    std::vector<Index> sharing;
+    for (Index uv = 0; uv + 1 < offsets_.size(); ++uv) {
+      edges.clear();
+      for (Index i = offsets_[uv]; i < offsets_[uv + 1]; ++i) {
+        if (i == offsets_[uv] || faces_[i - 1] != faces_[i]) add_edges(faces_[i], uv, edges);
+      }
+      std::sort(edges.begin(), edges.end());
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        const auto is_same = [&](std::size_t j) {
+          return std::equal(edges[i].begin(), edges[i].end() - 1, edges[j].begin());
+        };
+        sharing.push_back(edges[i][3]);
+        if (i + 1 < edges.size() && is_same(i + 1)) continue;
+        if (sharing.size() > 1) work(sharing);
+        sharing.clear();
+      }
+    }
+  }
+
   /// Call visit(face) for every other face that has corner k of the face, with an equal UV.
   template <class Visit>
   void around_corner(Index face, int k, Visit&& visit) const {
@@ -42,6 +69,8 @@ class UvNeighbours {
 
  private:
   Index count(Index uv) const { return offsets_[uv + 1] - offsets_[uv]; }
+  /// The edges of a face that belong to a UV: that of their ends with fewer faces around it.
+  void add_edges(Index face, Index uv, std::vector<std::array<Index, 4>>& edges) const;
   bool has_corner(Index face, Index position, Index uv) const {
     const auto& p = mesh_.faces[face];
     const auto& u = mesh_.face_uvs[face];

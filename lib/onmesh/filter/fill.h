@@ -15,6 +15,7 @@
 
 namespace onmesh {
 
+/// What filling can be told.
 struct FillOptions {
   bool clear_is_missing = false;  ///< alpha 0 says that a texel has no value; alpha is filled, too
   int gutter = 2;                 ///< as FilterOptions::gutter
@@ -25,11 +26,11 @@ struct FillOptions {
 
 /// What a run did.
 struct FillReport {
-  std::uint64_t texels = 0;   ///< on the surface
-  std::uint64_t missing = 0;  ///< of those, without a value
-  std::uint64_t left = 0;     ///< of those, without any texel with a value on their part
-  std::uint64_t gutter = 0;   ///< texels filled around the charts
-  std::vector<StageTime> stages;
+  std::uint64_t texels = 0;           ///< on the surface
+  std::uint64_t missing = 0;          ///< of those, without a value
+  std::uint64_t left = 0;             ///< of those, without any texel with a value on their part
+  std::uint64_t gutter = 0;           ///< texels filled around the charts
+  std::vector<StageTime> stages;      ///< in the order in which they ran
   std::vector<std::string> warnings;  ///< a line each
 };
 

@@ -18,7 +18,7 @@ struct LightError {
 
 /// Colour and alpha apart.
 struct LightDifference {
-  LightError colour;
+  LightError colour;                ///< of all channels but alpha
   std::optional<LightError> alpha;  ///< if there is alpha; it is no light, so its codes
 };
 

@@ -21,6 +21,9 @@ struct Material {
   /// What the texture's file holds if it is inside the mesh file; `texture` is only a name then.
   std::shared_ptr<const std::string> content = nullptr;
   bool is_opaque = false;  ///< said so: the texture's alpha means nothing
+  /// Where the mesh file names the texture, for messages: "scene.glb: images[0].uri". Empty = the
+  /// material's name is enough to find it.
+  std::string place = {};
 };
 
 /// Positions and UVs are indexed apart: position indices give connectivity, UV indices stay per

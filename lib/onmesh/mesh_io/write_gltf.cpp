@@ -20,14 +20,13 @@
 #include "onmesh/base/text.h"
 #include "onmesh/mesh_io/gltf/gltf_file.h"
 #include "onmesh/mesh_io/gltf/images.h"
+#include "onmesh/mesh_io/gltf/json_text.h"
 #include "onmesh/mesh_io/gltf/replace_views.h"
 #include "onmesh/mesh_io/gltf/uri.h"
 
 namespace onmesh {
 namespace fs = std::filesystem;
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Bytes.
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{16} << 30;
@@ -44,32 +43,6 @@ std::optional<FileNumber> number_of(const fs::path& path) {
 bool is_same_file(const fs::path& a, const fs::path& b) {
   std::error_code none;
   return fs::equivalent(a, b, none);
-}
-
-/// Members of the largest object: they are looked up one by one when their order is kept.
-std::size_t largest_object(const nlohmann::json& json) {
-  std::size_t largest = json.is_object() ? json.size() : 0;
-  if (json.is_structured()) {
-    for (const nlohmann::json& value : json) largest = std::max(largest, largest_object(value));
-  }
-  return largest;
-}
-
-/// The JSON with its members in their order.
-Json ordered(const GltfFile& file) {
-  constexpr std::size_t kMost = 10'000;
-  if (largest_object(file.root().value()) > kMost)
-    file.root().fail("an object with so many members is not written");
-  return Json::parse(file.json_text());
-}
-
-/// Blanks that lines one level below the first are indented by; -1 = all is one line.
-int indent_of(std::string_view json) {
-  const std::size_t line_end = json.find('\n');
-  if (line_end == std::string_view::npos || line_end + 1 >= json.size()) return -1;
-  const std::size_t text = json.find_first_not_of(" \t", line_end + 1);
-  if (text == std::string_view::npos) return -1;
-  return json[line_end + 1] == '\t' ? 2 : int(std::min<std::size_t>(text - line_end - 1, 8));
 }
 
 /// A GLB of the file's chunks, with other JSON and perhaps another binary one.
@@ -111,7 +84,7 @@ class GltfWriter {
         content_(read_file(source)),
         file_(source, content_, {}, report_),
         images_(file_),
-        document_(ordered(file_)),
+        text_(file_.json_text()),
         stays_(is_same_file(folder_of(path), folder_of(source))) {}
 
   const char* extension() const { return file_.chunks().empty() ? ".gltf" : ".glb"; }
@@ -121,7 +94,8 @@ class GltfWriter {
 
  private:
   void replace_one(Index image, const std::string& content);
-  void put_beside(const JsonPlace& uri, Json& holder, std::string content);
+  void show_images(const std::set<Index>& images);
+  void put_beside(const JsonPlace& uri, JsonText::Object holder, std::string content);
   std::vector<fs::path> named_files();
   fs::path target_of(const std::string& uri);
 
@@ -130,7 +104,7 @@ class GltfWriter {
   ReadReport report_;
   GltfFile file_;
   GltfImages images_;
-  Json document_;
+  JsonText text_;
   bool stays_;  ///< in its folder
   std::map<Index, std::string> views_, buffers_;
   std::set<Index> moved_images_;
@@ -143,13 +117,13 @@ class GltfWriter {
 
 void GltfWriter::replace_one(Index image, const std::string& content) {
   const JsonPlace place = file_.element("images", image);
-  Json& holder = document_["images"][image];
+  const JsonText::Object holder = text_.element("images", image);
   switch (images_.place(image)) {
     case GltfImagePlace::buffer_view:
       views_[place.index("bufferView", file_.root().size_of("bufferViews"))] = content;
       break;
     case GltfImagePlace::data_uri:
-      holder["uri"] = with_data(place.at("uri").text(), content);
+      text_.set(holder, "uri", with_data(place.at("uri").text(), content));
       break;
     case GltfImagePlace::file:
       put_beside(place.at("uri"), holder, content);
@@ -158,24 +132,39 @@ void GltfWriter::replace_one(Index image, const std::string& content) {
   }
 }
 
+/// Textures whose images are replaced show these, not an extension's that was not read.
+void GltfWriter::show_images(const std::set<Index>& images) {
+  const std::size_t textures = file_.root().size_of("textures");
+  for (Index i = 0; i < textures; ++i) {
+    const GltfTexture texture = describe_texture(file_, i);
+    if (texture.unread.empty() || !images.contains(texture.image)) continue;
+    nlohmann::json extensions = file_.element("textures", i).at("extensions").value();
+    for (const std::string& extension : texture.unread) extensions.erase(extension);
+    text_.set(text_.element("textures", i), "extensions", extensions);
+  }
+}
+
 void GltfWriter::replace(const std::vector<GltfImage>& images) {
+  std::set<Index> replaced;
   for (const GltfImage& changed : images) {
     bool is_known = false;
     for (Index i = 0; i < images_.size(); ++i) {
       if (images_.name(i) != changed.texture) continue;
       replace_one(i, changed.content);
+      replaced.insert(i);
       is_known = true;
     }
     if (!is_known) throw InputError(changed.texture + ": is no image of " + source_.string());
   }
+  show_images(replaced);
   if (views_.empty()) return;
-  buffers_ = replace_views(file_, views_, document_);
+  buffers_ = replace_views(file_, views_, text_);
   for (const auto& [i, bytes] : buffers_) {
     if (file_.is_in_chunk(i)) continue;
     const JsonPlace uri = file_.element("buffers", i).at("uri");
-    Json& holder = document_["buffers"][i];
+    const JsonText::Object holder = text_.element("buffers", i);
     if (is_data_uri(uri.text()))
-      holder["uri"] = with_data(uri.text(), bytes);
+      text_.set(holder, "uri", with_data(uri.text(), bytes));
     else
       put_beside(uri, holder, bytes);
   }
@@ -225,10 +214,10 @@ fs::path GltfWriter::target_of(const std::string& uri) {
   return relative;
 }
 
-void GltfWriter::put_beside(const JsonPlace& uri, Json& holder, std::string content) {
+void GltfWriter::put_beside(const JsonPlace& uri, JsonText::Object holder, std::string content) {
   const fs::path before = fs::path(percent_decoded(uri.text())).lexically_normal();
   const fs::path target = target_of(uri.text());
-  if (target != before) holder["uri"] = percent_encoded(target.generic_string());
+  if (target != before) text_.set(holder, "uri", percent_encoded(target.generic_string()));
   beside_[target] = std::move(content);
 }
 
@@ -240,18 +229,19 @@ void GltfWriter::move_files() {
     if (images_.place(i) != GltfImagePlace::file || moved_images_.contains(i) ||
         !fs::is_regular_file(images_.name(i), none))
       continue;
-    put_beside(file_.element("images", i).at("uri"), document_["images"][i],
+    put_beside(file_.element("images", i).at("uri"), text_.element("images", i),
                read_named_file(images_.name(i), kLargestFile));
   }
   for (Index i = 0; i < file_.root().size_of("buffers"); ++i) {
     const auto uri = file_.element("buffers", i).find("uri");
     if (!uri || is_data_uri(uri->text()) || buffers_.contains(i)) continue;
-    put_beside(*uri, document_["buffers"][i], read_named_file(file_.file_of(*uri), kLargestFile));
+    put_beside(*uri, text_.element("buffers", i),
+               read_named_file(file_.file_of(*uri), kLargestFile));
   }
 }
 
 std::vector<fs::path> GltfWriter::write() {
-  std::string json = document_.dump(indent_of(file_.json_text()));
+  std::string json = text_.edited();
   const auto binary = buffers_.find(0);
   const bool has_binary = binary != buffers_.end() && file_.is_in_chunk(0);
   if (!file_.chunks().empty())

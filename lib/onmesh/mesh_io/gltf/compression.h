@@ -26,6 +26,7 @@ struct DracoMesh {
   std::size_t vertices = 0;
   std::vector<Index> corners;                   ///< three per triangle
   std::vector<std::vector<double>> attributes;  ///< of the vertices, one after the other
+  double unpacked_bytes = 0;                    ///< that all attributes took, wanted or not
 };
 
 /// An attribute that is wanted of a mesh.
@@ -34,14 +35,25 @@ struct DracoAttribute {
   int components = 0;    ///< per vertex
 };
 
+/// How large a mesh must be.
+struct DracoSize {
+  std::size_t vertices = 0;
+  std::size_t corners = 0;  ///< of the primitive's indices
+  bool is_strip = false;    ///< which they describe, else triangles; the data hold triangles always
+  double most_bytes = 0;    ///< that its attributes may become
+
+  /// Whether so many triangles fit to the corners. Those of a strip that repeat a vertex are none.
+  bool fits(std::size_t triangles) const {
+    return is_strip ? triangles + 2 <= corners || triangles == 0 : 3 * triangles == corners;
+  }
+};
+
 /// \param packed the buffer view
 /// \param place of the extension in the primitive
-/// \param vertices as the primitive's accessors have them
-/// \param corners the same
+/// \param size as the primitive's accessors have it
 /// \return attributes in the order of those that were wanted
-/// \throw InputError naming the place, also if there are other numbers of vertices or corners
+/// \throw InputError naming the place, also if the size is another one
 DracoMesh unpack_draco(std::string_view packed, const JsonPlace& place,
-                       const std::vector<DracoAttribute>& wanted, std::size_t vertices,
-                       std::size_t corners);
+                       const std::vector<DracoAttribute>& wanted, const DracoSize& size);
 
 }  // namespace onmesh

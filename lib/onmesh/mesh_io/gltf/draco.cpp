@@ -1,11 +1,12 @@
-#include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 
 #include "onmesh/mesh_io/gltf/compression.h"
 
 #ifdef ONMESH_HAS_DRACO
-#include <draco/compression/decode.h>
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
+#include <draco/compression/mesh/mesh_sequential_decoder.h>
 #endif
 
 namespace onmesh {
@@ -19,9 +20,10 @@ class DracoHeader {
  public:
   DracoHeader(std::string_view bytes, const JsonPlace& place) : bytes_(bytes), place_(place) {}
 
-  /// Hold the triangles that the data promise against the accessors': bytes of the file should say
+  /// Hold the triangles that the data promise against the accessor's: bytes of the file should say
   /// how much is decoded, not a number in them.
-  void check(std::size_t triangles) {
+  /// \return whether the triangles are in edgebreaker's order, not one by one
+  bool check(const DracoSize& size) {
     if (!bytes_.starts_with("DRACO")) place_.fail("is no Draco data");
     at_ = 5;
     const unsigned major = byte(), minor = byte();
@@ -37,7 +39,8 @@ class DracoHeader {
       is_varint ? varint() : word();  // vertices
     }
     const std::uint64_t found = is_varint ? varint() : word();
-    if (found != triangles) place_.fail("has another number of triangles than its accessor");
+    if (!size.fits(found)) place_.fail("has another number of triangles than its accessor");
+    return method == 1;
   }
 
  private:
@@ -65,25 +68,68 @@ class DracoHeader {
   std::size_t at_ = 0;
 };
 
+/// Bytes that the decoder needs for attributes: each number is an integer first, then of its type.
+double unpacked_bytes(const draco::PointCloud& points) {
+  double bytes = 0;
+  for (int i = 0; i < points.num_attributes(); ++i) {
+    const draco::PointAttribute& attribute = *points.attribute(i);
+    const double number = sizeof(std::int32_t) + draco::DataTypeLength(attribute.data_type());
+    bytes += number * attribute.num_components() * points.num_points();
+  }
+  return bytes;
+}
+
+/// Stops where it knows what attributes there are, before it makes room for them, if that is too
+/// much.
+template <class Decoder>
+class BoundedDecoder : public Decoder {
+ public:
+  explicit BoundedDecoder(double most_bytes) : most_bytes_(most_bytes) {}
+
+  bool is_too_large() const { return is_too_large_; }
+
+ protected:
+  bool DecodeAllAttributes() override {
+    is_too_large_ = unpacked_bytes(*this->point_cloud()) > most_bytes_;
+    return !is_too_large_ && Decoder::DecodeAllAttributes();
+  }
+
+ private:
+  double most_bytes_;
+  bool is_too_large_ = false;
+};
+
+template <class Decoder>
+std::unique_ptr<draco::Mesh> decode(std::string_view packed, const JsonPlace& place,
+                                    double most_bytes) {
+  draco::DecoderBuffer buffer;
+  buffer.Init(packed.data(), packed.size());
+  BoundedDecoder<Decoder> decoder(most_bytes);
+  auto mesh = std::make_unique<draco::Mesh>();
+  const bool is_decoded = decoder.Decode(draco::DecoderOptions(), &buffer, mesh.get()).ok();
+  if (decoder.is_too_large()) place.fail("its attributes would become much larger than the file");
+  if (!is_decoded) place.fail("the Draco data are damaged");
+  return mesh;
+}
+
 }  // namespace
 
 bool can_read_draco() { return true; }
 
 DracoMesh unpack_draco(std::string_view packed, const JsonPlace& place,
-                       const std::vector<DracoAttribute>& wanted, std::size_t vertices,
-                       std::size_t corners) {
-  DracoHeader(packed, place).check(corners / 3);
-  draco::DecoderBuffer buffer;
-  buffer.Init(packed.data(), packed.size());
-  draco::Decoder decoder;
-  auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-  if (!decoded.ok()) place.fail("the Draco data are damaged");
-  const draco::Mesh& mesh = *decoded.value();
-  if (mesh.num_points() != vertices || std::size_t(mesh.num_faces()) * 3 != corners)
+                       const std::vector<DracoAttribute>& wanted, const DracoSize& size) {
+  const bool is_edgebreaker = DracoHeader(packed, place).check(size);
+  const auto decoded = is_edgebreaker
+                           ? decode<draco::MeshEdgebreakerDecoder>(packed, place, size.most_bytes)
+                           : decode<draco::MeshSequentialDecoder>(packed, place, size.most_bytes);
+  const draco::Mesh& mesh = *decoded;
+  const std::size_t vertices = size.vertices;
+  if (mesh.num_points() != vertices || !size.fits(mesh.num_faces()))
     place.fail("has another number of vertices or triangles than its accessors");
   DracoMesh result;
   result.vertices = vertices;
-  result.corners.reserve(corners);
+  result.unpacked_bytes = unpacked_bytes(mesh);
+  result.corners.reserve(3 * std::size_t(mesh.num_faces()));
   for (draco::FaceIndex f(0); f < mesh.num_faces(); ++f) {
     for (const draco::PointIndex& point : mesh.face(f)) {
       if (point.value() >= vertices) place.fail("a vertex index is out of range");
@@ -113,8 +159,7 @@ DracoMesh unpack_draco(std::string_view packed, const JsonPlace& place,
 bool can_read_draco() { return false; }
 
 DracoMesh unpack_draco(std::string_view /*packed*/, const JsonPlace& place,
-                       const std::vector<DracoAttribute>& /*wanted*/, std::size_t /*vertices*/,
-                       std::size_t /*corners*/) {
+                       const std::vector<DracoAttribute>& /*wanted*/, const DracoSize& /*size*/) {
   place.fail("this program was built without Draco");
 }
 

@@ -147,6 +147,7 @@ void GltfFile::check_extensions() {
     return result;
   };
   for (const std::string& extension : names("extensionsRequired")) {
+    used_.insert(extension);
     if (is_read(extension) || is_of_no_account(extension)) continue;
     const JsonPlace place = root().at("extensionsRequired");
     if (extension == "KHR_texture_basisu")
@@ -155,9 +156,11 @@ void GltfFile::check_extensions() {
       place.fail(extension + " is needed, which this program was built without");
     place.fail("the extension " + quote(extension) + " is needed, which is not known");
   }
-  for (const std::string& extension : names("extensionsUsed"))
+  for (const std::string& extension : names("extensionsUsed")) {
+    used_.insert(extension);
     (is_read(extension) ? report_.read : report_.ignored)
         .push_back("extension " + quote(extension));
+  }
 }
 
 fs::path GltfFile::file_of(const JsonPlace& uri) {
@@ -175,7 +178,7 @@ std::string GltfFile::content_of(const JsonPlace& uri) {
   try {
     return read_named_file(file, kLargestBuffer);
   } catch (const FileError& error) {
-    uri.fail(error.what());
+    throw FileError(uri.name() + ": " + error.what());
   }
 }
 

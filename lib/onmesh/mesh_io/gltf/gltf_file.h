@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,15 +52,17 @@ class GltfFile {
 
   /// The bytes of a buffer (3.6.1): of the GLB, of a data URI, or of a file of its own, which is
   /// read when it is asked for first.
-  /// \throw InputError naming the buffer
+  /// \throw InputError, FileError naming the buffer
   std::string_view buffer(Index i);
   /// Whether the buffer is the GLB's own chunk.
   bool is_in_chunk(Index i) const;
   /// The bytes of a buffer view (3.6.1.2), decompressed if need be.
   /// \throw InputError naming the buffer view
   std::string_view view(Index i);
+  /// Whether the file says that it uses an extension.
+  bool uses(const std::string& extension) const { return used_.contains(extension); }
   /// What a URI holds or names.
-  /// \throw InputError if it cannot be read
+  /// \throw InputError if it is damaged; FileError if it names a file that cannot be read
   std::string content_of(const JsonPlace& uri);
   /// Where the file is that a URI names, beside this one.
   /// \throw InputError if it names none that may be read
@@ -69,6 +72,8 @@ class GltfFile {
   /// that would become more than kMostPerByte times as large (and 128 MiB) is refused.
   /// \throw InputError naming the place
   void take_memory(double bytes, const JsonPlace& place);
+  /// Bytes that may still be taken.
+  double memory_left() const { return memory_left_; }
 
  private:
   void read_chunks(std::string_view content);
@@ -85,6 +90,7 @@ class GltfFile {
   std::string_view json_text_;
   std::vector<GlbChunk> chunks_;
   nlohmann::json json_;
+  std::set<std::string> used_;                  ///< extensions
   std::map<std::string, std::string> buffers_;  ///< those that are not in the GLB, by their place
   std::map<Index, std::string> views_;          ///< those that were decompressed
   double memory_left_ = 0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -148,22 +149,41 @@ std::shared_ptr<const std::string> GltfImages::content(Index image) {
   return content;
 }
 
+std::string GltfImages::place_name(Index image) const {
+  const bool is_view = places_[image] == GltfImagePlace::buffer_view;
+  return file_.element("images", image).at(is_view ? "bufferView" : "uri").name();
+}
+
 GltfTexture describe_texture(const GltfFile& file, Index texture) {
   const JsonPlace place = file.element("textures", texture);
   const std::size_t images = file.root().size_of("images");
   GltfTexture result;
   if (const auto sampler = place.find_index("sampler", file.root().size_of("samplers")))
     result.wrap = wrap_of(file.element("samplers", *sampler));
-  if (const auto source = place.find_index("source", images)) result.image = *source;
-  // An extension's image is the one that is shown; `source` is for programs that do not know it.
+  const auto source = place.find_index("source", images);
+  if (source) result.image = *source;
   const auto extensions = place.find("extensions");
   if (!extensions) return result;
-  for (const char* const name :
-       {"EXT_texture_webp", "KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
-    const auto extension = extensions->find(name);
-    if (!extension) continue;
-    if (const auto source = extension->find_index("source", images)) result.image = *source;
-    break;
+  const auto image_of = [&](const std::string& name) -> std::optional<Index> {
+    const auto extension = extensions->find(name.c_str());
+    return extension ? extension->find_index("source", images) : std::nullopt;
+  };
+  // An extension's image is the one that is shown.
+  if (const auto image = image_of("EXT_texture_webp")) {
+    result.image = *image;
+    return result;
+  }
+  if (source) {
+    for (const auto& [name, extension] : extensions->value().items())
+      if (extension.is_object() && extension.contains("source")) result.unread.push_back(name);
+    return result;
+  }
+  // Without another image the format is refused by its name when it is read.
+  for (const char* const name : {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
+    if (const auto image = image_of(name)) {
+      result.image = *image;
+      break;
+    }
   }
   return result;
 }

@@ -23,6 +23,8 @@ class GltfImages {
   GltfImagePlace place(Index image) const { return places_[image]; }
   /// The path of the image's file; of one inside this file a name.
   const std::string& name(Index image) const { return names_[image]; }
+  /// Where the file has it, for messages: "scene.glb: images[0].uri".
+  std::string place_name(Index image) const;
   /// What an image inside this file holds; null for a file.
   /// \throw InputError naming the image
   std::shared_ptr<const std::string> content(Index image);
@@ -42,6 +44,9 @@ class GltfImages {
 struct GltfTexture {
   Index image = kNone;
   WrapModes wrap;
+  /// Extensions with images for it that are not read, so that `image` is its `source`, the one for
+  /// programs that do not know them.
+  std::vector<std::string> unread;
 };
 
 /// \param texture an element of "textures"

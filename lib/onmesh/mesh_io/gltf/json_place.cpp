@@ -91,8 +91,12 @@ bool JsonPlace::flag(const char* key) const {
   return place->value_->get<bool>();
 }
 
+std::string JsonPlace::name() const {
+  return *file_ + ": " + (path_.empty() ? "JSON" : one_line_text(path_));
+}
+
 void JsonPlace::fail(const std::string& what) const {
-  throw InputError(*file_ + ": " + (path_.empty() ? "JSON" : path_) + ": " + one_line_text(what));
+  throw InputError(name() + ": " + one_line_text(what));
 }
 
 }  // namespace onmesh

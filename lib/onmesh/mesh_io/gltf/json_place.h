@@ -23,6 +23,8 @@ class JsonPlace {
   const nlohmann::json& value() const { return *value_; }
   /// "meshes[0].primitives[1]"; empty for the document.
   const std::string& path() const { return path_; }
+  /// File and path: "a.glb: meshes[0].primitives[1]".
+  std::string name() const;
 
   /// A member of this object.
   /// \throw InputError if this is no object or has no such member
