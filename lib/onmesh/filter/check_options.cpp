@@ -16,15 +16,6 @@ constexpr double kLeastValue = 1e-15, kLargestValue = 1e15;
 /// More rings than an image has rows.
 constexpr int kMostRings = 32768;
 
-void check_weld(const Length& weld) {
-  if (weld.unit == Length::Unit::texel) {
-    throw OptionError("weld", "is in mesh units or percent, not in texels");
-  }
-  if (!(weld.value >= 0) || !std::isfinite(weld.value)) {
-    throw OptionError("weld", "must be finite and not negative");
-  }
-}
-
 void check_numbers(const FilterOptions& options) {
   const auto check = [](const char* option, const std::optional<Length>& length) {
     if (length) require_positive(option, length->value);
@@ -39,7 +30,7 @@ void check_numbers(const FilterOptions& options) {
   check("node_spacing", options.node_spacing);
   require_within("tolerance", options.tolerance, 1e-9, 1e3);
   check("bridge", options.bridge);
-  if (options.weld) check_weld(*options.weld);
+  if (options.weld) require_tolerance("weld", *options.weld);
   if (options.threads < 0) throw OptionError("threads", "must not be negative");
   if (options.gutter < 0 || options.gutter > kMostRings) {
     throw OptionError("gutter", "must be between 0 and " + std::to_string(kMostRings));
