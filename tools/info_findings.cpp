@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <initializer_list>
+#include <string_view>
 #include <utility>
 
 #include "atlas.h"
@@ -13,6 +16,7 @@
 #include "messages.h"
 #include "onmesh/atlas/uv_overlap.h"
 #include "onmesh/base/face_error.h"
+#include "onmesh/base/text.h"
 #include "onmesh/mesh/coarse_coordinates.h"
 #include "onmesh/mesh_io/write_gltf.h"
 #include "shared_options.h"
@@ -180,6 +184,33 @@ std::vector<std::string> find_problems(const Findings& findings) {
   return problems;
 }
 
+/// What a file's name says that it holds, against the colour space that it would be read in; empty
+/// if it says nothing. Names decide nothing: they are only told.
+std::string advice_by_name(const TextureFacts& facts) {
+  if (facts.colour_space.empty() || facts.colour_space == "data" || facts.colour_space == "raw")
+    return {};
+  const std::string stem = lower_case(std::filesystem::path(facts.path).stem().string());
+  const auto ends_in = [&](std::initializer_list<std::string_view> words) {
+    return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
+      if (stem.size() <= word.size() || !stem.ends_with(word)) return false;
+      const char before = stem[stem.size() - word.size() - 1];
+      return before == '_' || before == '-' || before == '.';
+    });
+  };
+  if (ends_in({"n", "nor", "nrm", "normal", "normals"})) {
+    return facts.path +
+           " has the name of a normal map: the mean of their codes is no normal, so "
+           "it should not be filtered";
+  }
+  if (facts.colour_space != "linear" &&
+      ends_in({"rough", "roughness", "metal", "metallic", "metalness", "ao", "occlusion", "height",
+               "disp", "displacement", "gloss", "mask", "orm", "arm"})) {
+    return facts.path + " has the name of a map of numbers, and would be taken for colours in " +
+           facts.colour_space + ": give -t " + facts.path + "@data";
+  }
+  return {};
+}
+
 std::vector<std::string> find_advice(const InputMesh& input, const Findings& findings) {
   std::vector<std::string> lines = advice(findings.mesh);
   if (!findings.coarse.empty()) lines.push_back(findings.coarse);
@@ -198,6 +229,7 @@ std::vector<std::string> find_advice(const InputMesh& input, const Findings& fin
   if (findings.near.edges > 0) lines.push_back(in_flags(findings.near.text()));
   for (const TextureFacts& facts : findings.textures) {
     if (!facts.trouble.empty()) lines.push_back("texture " + facts.trouble);
+    if (std::string line = advice_by_name(facts); !line.empty()) lines.push_back(std::move(line));
     if (facts.crowded > 0) {
       lines.push_back(format_count(facts.crowded) + " texels " +
                       (facts.path.empty() ? "" : "of " + facts.path + " ") +

@@ -40,11 +40,7 @@ std::optional<Length> bridge_of(const Arguments& arguments) {
 
 std::optional<Length> weld_of(const Arguments& arguments) {
   if (!arguments.has("weld")) return std::nullopt;
-  if (arguments.text("weld") == "0") return Length{0, Length::Unit::mesh};
-  const Length weld = arguments.length("weld");
-  if (weld.unit == Length::Unit::texel)
-    throw UsageError("--weld: is in mesh units or percent, not in texels");
-  return weld;
+  return parse_tolerance("weld", arguments.text("weld"));
 }
 
 DistanceMethod distance_of(const Arguments& arguments) {

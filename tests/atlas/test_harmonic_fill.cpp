@@ -78,6 +78,20 @@ TEST_CASE("a hole in a flat sheet gets the harmonic function of its border", "[h
   }
 }
 
+TEST_CASE("opposite borders of a repeated texture are no neighbours", "[harmonic_fill]") {
+  // A hole from the middle to the right border; the left one has other values.
+  const TriangleMesh mesh = make_plane(1, 1);
+  const TexelMap map = make_texel_map(mesh, 32, 32);
+  Image image = make_image(32, 32, 1);
+  std::vector<Index> missing;
+  for (Index t = 0; t < 32 * 32; ++t) {
+    image.pixels[t] = t % 32 < 8 ? 0.F : 1.F;
+    if (t % 32 >= 16) missing.push_back(t);
+  }
+  CHECK(harmonic_fill(mesh, map, missing, {0}, texels_of(image)) == 0);
+  for (const Index texel : missing) REQUIRE(image.pixels[texel] == Approx(1).margin(1e-5));
+}
+
 TEST_CASE("what is filled is smooth over seams", "[harmonic_fill]") {
   // Two halves of the sheet, the right one turned by 90 degrees and smaller in the atlas.
   TriangleMesh mesh = make_plane(4, 4);

@@ -50,6 +50,24 @@ TEST_CASE("unfold is Euclidean on any triangulation of a plane", "[unfold]") {
   }
 }
 
+/// A sheet of two halves with a strip between them, in so many rows.
+TriangleMesh sheet_with_strip(double width, Index rows) {
+  TriangleMesh mesh = plane(3, int(rows), 1, 1);
+  for (Vec3& p : mesh.positions) {
+    if (p.x() > 0.1 && p.x() < 0.9) p.x() = p.x() < 0.5 ? 0.5 : 0.5 + width;
+  }
+  return mesh;
+}
+
+TEST_CASE("distances across a thin strip of many segments are those of the plane", "[unfold]") {
+  const TriangleMesh mesh = sheet_with_strip(1e-4, 100);
+  const NodeMesh nodes = make_node_mesh(mesh);
+  const auto truth = [&](Index a, Index b) {
+    return (mesh.positions[a] - mesh.positions[b]).norm();
+  };
+  CHECK(compare(fill(*make_unfold(), whole(nodes), 2), 2, truth).max < 1e-6);
+}
+
 TEST_CASE("a folded sheet has the distances of the flat one", "[unfold]") {
   // An accordion of leaves .2 wide, nearly closed.
   const NodeMesh a = make_node_mesh(plane(20, 12, 2, 1.2)), b = [] {

@@ -26,6 +26,20 @@ TEST_CASE("what is no positive finite length is refused by the option's name", "
                     Catch::StartsWith("sigma_spatial: \"abc\" is not a positive length"));
 }
 
+TEST_CASE("a tolerance may be 0 and is not in texels", "[length]") {
+  CHECK(parse_tolerance("weld", "0").value == 0);
+  CHECK(parse_tolerance("weld", "0.002").unit == Length::Unit::mesh);
+  CHECK(parse_tolerance("weld", "0%").unit == Length::Unit::percent);
+  for (const std::string text : {"", "-1", "-1%", "2tx", "0tx", "nan", "inf", "1mm"}) {
+    INFO("\"" << text << "\"");
+    CHECK_THROWS_AS(parse_tolerance("weld", text), OptionError);
+  }
+  // What is suggested is not refused itself.
+  CHECK_THROWS_WITH(parse_tolerance("weld", "abc"),
+                    !Catch::Contains("tx") && Catch::StartsWith("weld: \"abc\" is not a length"));
+  CHECK_THROWS_WITH(parse_tolerance("weld", "-1"), "weld: must be finite and not negative");
+}
+
 TEST_CASE("a length written and read again is the same", "[length]") {
   for (const std::string text : {"0.1", "8tx", "33.3%", "1e-07", "12345.678"}) {
     const Length length = parse_length("spacing", text);

@@ -50,6 +50,22 @@ TEST_CASE("nodes are wanted only where texels are", "[spacing]") {
   CHECK(refinement_for(all, plan).flat_faces);
 }
 
+TEST_CASE("parts without texels have no nodes but their vertices", "[spacing]") {
+  TriangleMesh mesh = make_plane(2, 2);
+  const FilterOptions options;
+  const Image texture = make_image(64, 64, 1);
+  const SurfaceTextures textures = one_texture(texture, options);
+  const std::uint64_t alone = set_up_filter(mesh, textures, options).mesh_plan.nodes;
+  // A face that crosses the plane, a million times as wide.
+  const auto first = static_cast<Index>(mesh.positions.size());
+  for (const Vec3& p : {Vec3(-1e6, 0.3, -1e6), Vec3(1e6, 0.3, -1e6), Vec3(0, 0.3, 1e6)})
+    mesh.positions.push_back(p);
+  mesh.faces.push_back({first, first + 1, first + 2});
+  mesh.face_uvs.push_back({kNone, kNone, kNone});
+  mesh.face_materials.push_back(kNone);
+  CHECK(set_up_filter(mesh, textures, options).mesh_plan.nodes == alone + 3);
+}
+
 /// The largest spacing of use in the faces of a plane with a corner that is drawn out, in radii.
 double longest_useful(double corner) {
   TriangleMesh mesh = make_plane(8, 8);

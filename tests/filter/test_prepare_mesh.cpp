@@ -82,6 +82,40 @@ TEST_CASE("meshes that no texel lies on are refused with the reason", "[prepare]
   CHECK_THROWS_WITH(filter({}, texture, options), "the mesh has no faces to filter on");
 }
 
+TEST_CASE("meshes without a face that has an area are refused with the reason", "[prepare]") {
+  const auto refused = [](const Vec3& scale, double shear) {
+    TriangleMesh mesh = make_plane(2, 2);
+    for (Vec3& p : mesh.positions) {
+      p.z() += shear * p.x();
+      p = p.cwiseProduct(scale);
+    }
+    mesh.positions[0].x() -= 1e-3 * scale.x();
+    return mesh;
+  };
+  const Image texture = make_image(16, 16, 1);
+  CHECK_THROWS_WITH(filter(refused({0, 0, 0}, 0), texture, {}), Contains("has any area"));
+  CHECK_THROWS_WITH(filter(refused({1, 0, 0}, 0), texture, {}), Contains("has any area"));
+  CHECK_THROWS_WITH(filter(refused({1e13, 1, 0}, 0), texture, {}),
+                    Contains("every face of the mesh is a needle"));
+  TriangleMesh spike = make_plane(2, 2);
+  spike.faces.push_back({0, 1, static_cast<Index>(spike.positions.size())});
+  spike.face_uvs.push_back({kNone, kNone, kNone});
+  spike.face_materials.push_back(kNone);
+  spike.positions.emplace_back(0, 0, 1e200);
+  CHECK_THROWS_WITH(filter(spike, texture, {}), Contains("too small beside the mesh"));
+}
+
+TEST_CASE("meshes smaller than the reciprocal of any number are filtered", "[prepare]") {
+  Image texture = make_image(16, 16, 1);
+  for (std::size_t i = 0; i < texture.pixels.size(); ++i) texture.pixels[i] = float(i % 7);
+  TriangleMesh mesh = make_plane(2, 2);
+  FilterOptions options;
+  options.sigma_spatial = parse_length("sigma", "2tx");
+  const Image as_it_is = filter(mesh, texture, options);
+  for (Vec3& p : mesh.positions) p *= 0x1p-1030;
+  CHECK(filter(mesh, texture, options).pixels == as_it_is.pixels);
+}
+
 TEST_CASE("charts beside the image's own tile are mentioned", "[prepare]") {
   TriangleMesh mesh = make_plane(1, 1);
   for (Vec2& uv : mesh.uvs) uv.x() += 1;

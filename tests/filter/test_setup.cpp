@@ -19,6 +19,20 @@ FilterOptions options_for(SampleKind samples) {
   return options;
 }
 
+TEST_CASE("texels far wider than the mesh are filtered, or named as what is wrong", "[setup]") {
+  TriangleMesh mesh = make_plane(4, 4);
+  for (Vec2& uv : mesh.uvs) uv = Vec2(0.5, 0.5) + 1e-9 * uv;
+  const Image texture = make_texture(128, 128, Pattern::checker, 0.3, 7, 3);
+  FilterOptions options = options_for(SampleKind::texel);
+  FilterReport report;
+  filter(mesh, texture, options, &report);
+  CHECK(report.texels == 1);
+  options.sigma_spatial = {1e6, Length::Unit::texel};
+  CHECK_THROWS_AS(filter(mesh, texture, options), InputError);
+  CHECK_THROWS_WITH(filter(mesh, texture, options),
+                    Catch::Contains("UVs cover hardly anything of the texture"));
+}
+
 TEST_CASE("the plan tells what the filter then does", "[setup][filter][slow]") {
   const TriangleMesh mesh = make_torus(32, 16);
   const Image texture = make_texture(256, 128, Pattern::checker, 0.3, 7, 3);

@@ -141,4 +141,23 @@ FilterOptions make_options(Input& input, std::size_t faces) {
   return options;
 }
 
+void choose_values(Input& input, FilterOptions& options, SurfaceTextures& textures,
+                   std::vector<Image>& masks) {
+  const std::uint8_t choices = input.byte();
+  const auto bit = [&](int i) { return (choices >> i & 1) != 0; };
+  static constexpr RangeSpace kSpaces[] = {RangeSpace::code, RangeSpace::linear, RangeSpace::log,
+                                           RangeSpace::oklab};
+  if (bit(0)) options.range_space = input.pick(kSpaces);
+  if (bit(1)) options.strength = double(input.byte()) / 255;
+  if (bit(2)) options.filter_alpha = true;
+  if (bit(3)) textures.tiles[0].space = find_colour_space("sRGB");
+  masks.reserve(2);  // textures refer to them
+  for (const int which : {4, 5}) {
+    if (!bit(which)) continue;
+    masks.push_back(make_image(1 + int(input.below(24)), 1 + int(input.below(24)), 1));
+    for (float& v : masks.back().pixels) v = float(input.byte() % 5) / 4;
+    (which == 4 ? textures.tiles[0].mask : textures.tiles[0].sample_mask) = &masks.back();
+  }
+}
+
 }  // namespace onmesh::fuzz

@@ -31,4 +31,9 @@ SurfaceTextures make_textures(Input& input, std::vector<Image>& images, const Tr
 /// \param faces of the mesh
 FilterOptions make_options(Input& input, std::size_t faces);
 
+/// Often nothing; else range space, strength, alpha, masks, and sRGB for codes that could be.
+/// \param masks get what the textures refer to
+void choose_values(Input& input, FilterOptions& options, SurfaceTextures& textures,
+                   std::vector<Image>& masks);
+
 }  // namespace onmesh::fuzz

@@ -1,6 +1,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <filesystem>
@@ -101,6 +102,21 @@ TEST_CASE("a link stays a link and permissions stay as they were", "[write_image
   write_image(folder / "new.png", image);
   umask(mask);
   CHECK(fs::status(folder / "new.png").permissions() == fs::perms(0640));
+}
+
+TEST_CASE("an EXR has its channels by name, in whatever order they are in memory",
+          "[write_image]") {
+  const ImageFolder folder;
+  Image image = make_image(3, 2, 4);
+  image.channel_names = {"z.Z", "B", "G", "R"};
+  for (std::size_t k = 0; k < image.pixels.size(); ++k) image.pixels[k] = float(k);
+  write_image(folder / "o.exr", image);
+  const Image read = read_image(folder / "o.exr");
+  for (std::size_t c = 0; c < 4; ++c) {
+    const auto& names = image.channel_names;
+    const auto own = std::find(names.begin(), names.end(), read.channel_names[c]) - names.begin();
+    for (Index t = 0; t < 6; ++t) REQUIRE(read.texel(t)[c] == image.texel(t)[own]);
+  }
 }
 
 TEST_CASE("writing over the file that was read works", "[write_image]") {

@@ -111,6 +111,43 @@ TEST_CASE("needles, caps and pillows are refined without end", "[refine]") {
   }
 }
 
+/// A disk of as many faces around a vertex, which is drawn out.
+TriangleMesh drawn_out_hub(Index faces, double radius, double height) {
+  TriangleMesh mesh = bare_mesh({{0, 0, height}}, {});
+  for (Index i = 0; i < faces; ++i) {
+    const double angle = 2 * std::numbers::pi * i / faces;
+    mesh.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+    mesh.faces.push_back({0, 1 + i, 1 + (i + 1) % faces});
+  }
+  mesh.face_uvs.assign(faces, {kNone, kNone, kNone});
+  mesh.face_materials.assign(faces, kNone);
+  return mesh;
+}
+
+TEST_CASE("a hub drawn out to a spike has as many pieces as faces", "[refine]") {
+  // Every node face around the spike would lie over each of the needles.
+  const TriangleMesh mesh = drawn_out_hub(1500, 1e-3, 5);
+  RefineOptions options;
+  options.spacing = 0.01;
+  options.enough_nodes = 20000;
+  RefineReport report;
+  const NodeSurface surface = refine(mesh, {}, options, &report);
+  CHECK(report.bisected);
+  CHECK(surface.overlay.pieces.size() == surface.nodes.faces.size());
+}
+
+TEST_CASE("a flat hub of many faces gets good shapes as far as there are nodes for them",
+          "[refine]") {
+  const TriangleMesh mesh = drawn_out_hub(2000, 0.4, 0);
+  RefineOptions options;
+  options.spacing = 0.1;
+  options.enough_nodes = 3000;
+  RefineReport report;
+  refine(mesh, {}, options, &report);
+  CHECK_FALSE(report.bisected);
+  CHECK(report.nodes < 3000);
+}
+
 TEST_CASE("a face without area does not stop the refinement", "[refine]") {
   // Vertex 4 on the diagonal, seen as a corner by one side only: a flat face closes the gap.
   const TriangleMesh mesh = bare_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},

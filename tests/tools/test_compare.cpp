@@ -108,3 +108,56 @@ TEST_CASE("compare of glTF files is that of their images on their mesh", "[tools
                 "named.glb: has no image image0.png, as a.glb");
   check_refused(space, "compare a.glb b.glb --slot normal", 2, "no texture");
 }
+
+TEST_CASE("compare measures light, alpha apart, where a mask shows it", "[tools][compare]") {
+  const Workspace space;
+  space.must("make-mesh plane -o m.obj -t unused.png --size 8");
+  Image a = make_image(8, 8, 4);
+  a.alpha_channel = 3;
+  a.channel_names = {"R", "G", "B", "A"};
+  std::fill(a.pixels.begin(), a.pixels.end(), 1.F);
+  Image b = a;
+  for (Index t = 0; t < 64; ++t) {
+    b.texel(t)[3] = 0.5F;
+    // Half of the texels, which a mask of another size hides.
+    if (t / 8 >= 4) std::fill_n(b.texel(t), 3, 3.F);
+  }
+  write_image(space / "a.exr", a);
+  write_image(space / "b.exr", b);
+  Image mask = make_image(2, 2, 1);
+  mask.pixels = {1, 1, 0, 0};
+  write_image(space / "half.png", mask, {false, 8});
+  for (const std::string mesh : {"", " --mesh m.obj --material all"}) {
+    const auto whole = space.must("compare a.exr b.exr --json" + mesh).json();
+    CHECK(whole["texels"] == 64);
+    CHECK(whole["light"]["rel_mse"].get<double>() == Approx(0.5 * 4 / 9.01));
+    CHECK(whole["light"]["alpha"]["rel_mse"].get<double>() == Approx(0.25 / 0.26));
+    Image shown = make_image(8, 8, 1);
+    for (Index t = 0; t < 64; ++t) shown.pixels[t] = t / 8 < 4 ? 1.F : 0.F;
+    write_image(space / "mask.png", shown, {false, 8});
+    const auto half = space.must("compare a.exr b.exr --json --mask mask.png" + mesh).json();
+    CHECK(half["texels"] == 32);
+    CHECK(half["light"]["rel_mse"] == 0);
+    CHECK(half["light"]["log_psnr"].is_null());  // infinite
+    // Looked up between its texels: two rows more count in part.
+    CHECK(space.must("compare a.exr b.exr --json --mask half.png" + mesh).json()["texels"] == 48);
+  }
+  const Run text = space.must("compare a.exr b.exr");
+  CHECK_THAT(text.out, Contains("relMSE") && Contains("logPSNR") && Contains("alpha relMSE"));
+
+  // Codes are decoded as filter would: the default of 8 bits is sRGB.
+  Image white = make_image(4, 4, 3), grey = white;
+  std::fill(white.pixels.begin(), white.pixels.end(), 1.F);
+  std::fill(grey.pixels.begin(), grey.pixels.end(), 188.F / 255);
+  write_image(space / "w.png", white, {false, 8});
+  write_image(space / "g.png", grey, {false, 8});
+  const auto rel_mse = [&](const std::string& options) {
+    return space.must("compare g.png w.png --json" + options)
+        .json()["light"]["rel_mse"]
+        .get<double>();
+  };
+  CHECK(rel_mse("") == Approx(0.2472 / 1.01).epsilon(0.002));
+  CHECK(rel_mse(" --raw") == Approx(std::pow(67.0 / 255, 2) / 1.01));
+  const Run none = space.run("compare g.png w.png --mask gone.png");
+  CHECK(none.code == 4);
+}

@@ -214,3 +214,18 @@ TEST_CASE("detail and output give the texture again", "[tools][values]") {
   check_refused(space, "filter m.obj -t m.exr -o o.exr --detail-out o.exr", 2,
                 "is the output or the mesh");
 }
+
+TEST_CASE("info advises by names, which decide nothing", "[tools][values]") {
+  const Sheet space;
+  const Image image = make_texture(16, 16, Pattern::checker, 0.2, 3, 3);
+  for (const char* name : {"wall_ROUGH.png", "wall_n.png", "wall.png", "tan.png"})
+    write_image(space / name, image, {false, 8});
+  const auto advice = [&](const std::string& texture) {
+    return std::string(space.must("info m.obj -t " + texture + " --json").json()["advice"].dump());
+  };
+  CHECK_THAT(advice("wall_ROUGH.png"), Contains("give -t wall_ROUGH.png@data"));
+  CHECK_THAT(advice("wall_ROUGH.png@data"), !Contains("map of numbers"));
+  CHECK_THAT(advice("wall_n.png"), Contains("normal map"));
+  CHECK_THAT(advice("wall.png") + advice("tan.png"), !Contains("has the name of"));
+  CHECK(space_of(space, "-t wall_ROUGH.png") == "sRGB, the file's tag");
+}

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "onmesh/atlas/charts_of_texels.h"
+#include "onmesh/atlas/texel_places.h"
 #include "onmesh/base/parallel.h"
 
 namespace onmesh {
@@ -30,7 +31,7 @@ class MaskLookup {
     }
     if (same_sizes) return;
     mask_map_ = make_texel_map(mesh, std::move(tiles), map.tile_of_face);
-    charts_ = charts_of_texels(mask_map_);
+    places_.emplace(mask_map_);
   }
 
   float at(Index face, const TexelClaim& claim) const {
@@ -58,11 +59,10 @@ class MaskLookup {
       const TexelClaim there{x + corner % 2, y + corner / 2};
       const double weight = (1 - std::abs(at.x() - there.x)) * (1 - std::abs(at.y() - there.y));
       if (!(weight > 0)) continue;
-      const Index texel = tile.texel(there);
-      const double v = weight * value(mask, texel - tile.first);
+      const double v = weight * value(mask, tile.texel(there) - tile.first);
       any += v;
       any_weight += weight;
-      if (!tile.holds(there) || charts_[texel] != mask_map_.chart_of_face[face]) continue;
+      if (places_->in_chart_of(face, tile, there) == kNone) continue;
       own += v;
       own_weight += weight;
     }
@@ -71,8 +71,8 @@ class MaskLookup {
 
   const TexelMap& map_;
   const std::vector<const Image*>& masks_;
-  TexelMap mask_map_;          ///< of the same mesh, with the masks' texels; none if sizes agree
-  std::vector<Index> charts_;  ///< of those texels
+  TexelMap mask_map_;  ///< of the same mesh, with the masks' texels; none if sizes agree
+  std::optional<TexelPlaces> places_;  ///< of those texels
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "onmesh/atlas/texel_places.h"
 #include "onmesh/atlas/unfolded_walk.h"
 #include "onmesh/base/parallel.h"
 
@@ -47,29 +48,6 @@ struct Link {
   float weight;
 };
 
-/// Where each covered texel lies: its first claim.
-class TexelPlaces {
- public:
-  explicit TexelPlaces(const TexelMap& map)
-      : face_(map.coverage.size(), kNone), claim_(map.coverage.size()) {
-    for (Index f = 0; f + 1 < map.face_offsets.size(); ++f) {
-      const TexelTile tile = map.tile_of(f);
-      for (Index k = map.face_offsets[f]; k < map.face_offsets[f + 1]; ++k) {
-        const Index texel = tile.texel(map.claims[k]);
-        if (face_[texel] != kNone) continue;
-        face_[texel] = f;
-        claim_[texel] = map.claims[k];
-      }
-    }
-  }
-  Index face(Index texel) const { return face_[texel]; }
-  const TexelClaim& claim(Index texel) const { return claim_[texel]; }
-
- private:
-  std::vector<Index> face_;
-  LargeArray<TexelClaim> claim_;
-};
-
 class LinkFinder {
  public:
   LinkFinder(const TriangleMesh& mesh, const TexelMap& map)
@@ -88,7 +66,7 @@ class LinkFinder {
     for (std::size_t d = 0; d < kDirections.size(); ++d) {
       for (const int sign : {1, -1}) {
         const TexelClaim step{sign * kDirections[d].x, sign * kDirections[d].y};
-        const Index other = neighbour(tile, {at.x + step.x, at.y + step.y}, face);
+        const Index other = places_.in_chart_of(face, tile, {at.x + step.x, at.y + step.y});
         if (other == texel) continue;
         if (other == kNone) {
           if (d < 2) open.push_back(step);
@@ -122,14 +100,6 @@ class LinkFinder {
   }
 
  private:
-  /// The texel if the face's chart covers it, kNone if not.
-  Index neighbour(const TexelTile& tile, const TexelClaim& claim, Index face) const {
-    if (!tile.holds(claim)) return kNone;
-    const Index texel = tile.texel(claim);
-    const Index other = places_.face(texel);
-    return other != kNone && map_.chart_of_face[other] == map_.chart_of_face[face] ? texel : kNone;
-  }
-
   /// Share a link's weight among the chart's texels around a place, bilinearly.
   bool share(Index texel, Index face, const Vec2& pixel, float weight,
              std::vector<Link>& links) const {
@@ -142,7 +112,7 @@ class LinkFinder {
     for (int corner = 0; corner < 4; ++corner) {
       const TexelClaim there{x + corner % 2, y + corner / 2};
       const double part = (1 - std::abs(at.x() - there.x)) * (1 - std::abs(at.y() - there.y));
-      const Index other = neighbour(tile, there, face);
+      const Index other = places_.in_chart_of(face, tile, there);
       if (!(part > 1e-6) || other == kNone || other == texel) continue;
       found[count++] = {other, float(part)};
       sum += part;

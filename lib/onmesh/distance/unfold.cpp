@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "onmesh/base/simd_targets.h"
 #include "onmesh/base/triangle.h"
+#include "onmesh/distance/march_queue.h"
 #include "onmesh/distance/unfold_complex.h"
 
 // This file is compiled once per instruction set (Highway); the best one is chosen at run time.
@@ -25,16 +28,28 @@ constexpr float kFar = 1e30F;
 
 template <class T>
 struct Scratch {
+  explicit Scratch(std::size_t nodes)
+      : squared(nodes * kLanes, T(kFar)), is_touched(nodes, 0), quick(nodes), nearest(nodes) {}
+
+  void touch(Index node) {
+    if (is_touched[node]) return;
+    is_touched[node] = 1;
+    touched.push_back(node);
+  }
+
   std::vector<T> squared;      // nodes x kLanes
   std::vector<Index> touched;  // nodes that differ from kFar
-  std::vector<Index> queue;    // ring buffer
-  std::vector<unsigned char> is_queued, is_touched;
+  std::vector<unsigned char> is_touched;
+  FirstInFirstOut<T> quick;
+  NearestFirst<T> nearest;
 };
 
 // What a step did to its target in any lane.
+template <class T>
 struct Change {
   bool any = false;
   bool passes_on = false;  // enough to tell the target's neighbours
+  T nearest = T(kFar);     // squared, of the lanes that pass on; if it is wanted
 };
 
 }  // namespace onmesh::unfold
@@ -49,9 +64,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 // \param root the distances at v
 // \param limit2 squared: a target farther away tells no neighbour
 // \param significant what an improvement leaves at most, to be passed on
-template <class T>
-HWY_INLINE Change take(const Step<T>& step, const T* at_v, const T* root, T limit2, T significant,
-                       T* squared) {
+// \tparam by_distance whether Change::nearest is wanted
+template <bool by_distance, class T>
+HWY_INLINE Change<T> take(const Step<T>& step, const T* at_v, const T* root, T limit2,
+                          T significant, T* squared) {
   const hn::CappedTag<T, kLanes> d;
   const auto zero = hn::Zero(d), two = hn::Set(d, T(2)), far = hn::Set(d, T(kFar));
   const auto reached = hn::Set(d, T(kFar) / 2);  // whatever follows from kFar is more
@@ -62,7 +78,7 @@ HWY_INLINE Change take(const Step<T>& step, const T* at_v, const T* root, T limi
   const auto half_inverse = hn::Set(d, step.half_inverse), side = hn::Set(d, step.side);
   const auto x = hn::Set(d, step.x), y = hn::Set(d, step.y), side2 = hn::Set(d, step.side2);
   const auto floor = hn::Mul(tolerance, hn::Mul(l, l));
-  Change change;
+  Change<T> change;
   for (std::size_t p = 0; p < kLanes; p += hn::Lanes(d)) {
     const auto dv = hn::LoadU(d, at_v + p), dj = hn::LoadU(d, at_other + p);
     const auto old = hn::LoadU(d, at_target + p);
@@ -84,67 +100,69 @@ HWY_INLINE Change take(const Step<T>& step, const T* at_v, const T* root, T limi
     if (hn::AllFalse(d, better)) continue;
     change.any = true;
     hn::StoreU(hn::IfThenElse(better, there, old), d, at_target + p);
-    change.passes_on |=
-        !hn::AllFalse(d, hn::And(hn::Lt(there, hn::Mul(old, hn::Set(d, significant))),
-                                 hn::Le(there, hn::Set(d, limit2))));
+    const auto tells = hn::And(hn::Lt(there, hn::Mul(old, hn::Set(d, significant))),
+                               hn::Le(there, hn::Set(d, limit2)));
+    if (hn::AllFalse(d, tells)) continue;
+    change.passes_on = true;
+    if constexpr (by_distance) {
+      const auto nearest = hn::MinOfLanes(d, hn::IfThenElse(tells, there, far));
+      change.nearest = std::min(change.nearest, hn::GetLane(nearest));
+    }
   }
   return change;
 }
 
-// From up to kLanes sources, one per lane, as far as the reach and the complex's limits say.
-// \param reach of all sources, in the complex's unit
-// \param noise smaller relative improvements are not passed on
-template <class T>
-void march(const Complex<T>& complex, const Index* sources, std::size_t count, T reach, T noise,
-           Scratch<T>& s) {
+// Go on from queued nodes, as far as the reach and the complex's limits say, until none is left or
+// nodes were visited so many times on average.
+// \param noise smaller relative improvements are kept, but not passed on: rounding must not keep
+//   the march busy. Where edges are so short that it does, more and more counts as noise.
+template <class T, class Queue>
+void march_on(const Complex<T>& complex, T reach, double most_visits, T noise, Scratch<T>& s,
+              Queue& queue) {
   const hn::CappedTag<T, kLanes> d;
-  const std::size_t capacity = s.queue.size();
-  std::size_t head = 0, queued = 0;
-  const auto push = [&](Index node) {
-    if (s.is_queued[node]) return;
-    s.is_queued[node] = 1;
-    std::size_t tail = head + queued++;
-    s.queue[tail < capacity ? tail : tail - capacity] = node;
-  };
-  const auto touch = [&](Index node) {
-    if (s.is_touched[node]) return;
-    s.is_touched[node] = 1;
-    s.touched.push_back(node);
-  };
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    s.squared[std::size_t(sources[lane]) * kLanes + lane] = 0;
-    touch(sources[lane]);
-    push(sources[lane]);
-  }
-
-  // Smaller improvements are kept, but not passed on: rounding must not keep the march busy. It
-  // visits a node some ten times. Where edges are so short that rounding keeps it going, it has to
-  // come to an end all the same: more and more counts as noise.
-  std::size_t visits = 0, patience = 64 * capacity;
-
+  const std::size_t nodes = s.is_touched.size();
+  std::size_t visits = 0, patience = 64 * nodes;
   alignas(64) std::array<T, kLanes> root;
-  while (queued > 0) {
+  while (double(visits) < most_visits * double(s.touched.size())) {
+    const std::optional<Index> next = queue.pop();
+    if (!next) return;
     if (++visits > patience) {
-      patience += capacity;
+      patience += nodes;
       noise = std::min(T(1), 2 * noise);
     }
-    const Index v = s.queue[head];
-    if (++head == capacity) head = 0;
-    --queued;
-    s.is_queued[v] = 0;
-    const T* const at_v = s.squared.data() + std::size_t(v) * kLanes;
+    const T* const at_v = s.squared.data() + std::size_t(*next) * kLanes;
     for (std::size_t p = 0; p < kLanes; p += hn::Lanes(d))
       hn::Store(hn::Sqrt(hn::LoadU(d, at_v + p)), d, root.data() + p);
 
-    for (Index i = complex.offsets[v]; i < complex.offsets[v + 1]; ++i) {
+    for (Index i = complex.offsets[*next]; i < complex.offsets[*next + 1]; ++i) {
       const Step<T>& step = complex.steps[i];
       const T beyond = reach + complex.limit[step.target];
-      const Change change =
-          take(step, at_v, root.data(), beyond * beyond, 1 - noise, s.squared.data());
-      if (change.any) touch(step.target);
-      if (change.passes_on) push(step.target);
+      const Change<T> change = take<Queue::kByDistance>(step, at_v, root.data(), beyond * beyond,
+                                                        1 - noise, s.squared.data());
+      if (change.any) s.touch(step.target);
+      if (change.passes_on) queue.push(step.target, change.nearest);
     }
   }
+}
+
+// From up to kLanes sources, one per lane.
+// \param reach of all sources, in the complex's unit
+template <class T>
+void march(const Complex<T>& complex, const Index* sources, std::size_t count, T reach, T noise,
+           Scratch<T>& s) {
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    s.squared[std::size_t(sources[lane]) * kLanes + lane] = 0;
+    s.touch(sources[lane]);
+    s.quick.push(sources[lane], 0);
+  }
+  // Elsewhere than beside needles it visits a node two to six times.
+  constexpr double kQuickVisits = 8;
+  march_on(complex, reach, kQuickVisits, noise, s, s.quick);
+  while (const std::optional<Index> node = s.quick.pop()) {
+    const T* const at = s.squared.data() + std::size_t(*node) * kLanes;
+    s.nearest.push(*node, *std::min_element(at, at + kLanes));
+  }
+  march_on(complex, reach, std::numeric_limits<double>::infinity(), noise, s, s.nearest);
 }
 
 void march_float(const Complex<float>& complex, const Index* sources, std::size_t count,
@@ -183,11 +201,7 @@ void fill_table(const Patch& patch, const Incidence& around, double reach, doubl
   const Complex<T> complex = make_complex<T>(patch, around, scale, slack);
   const std::vector<Index> order = order_sources(patch, around, kLanes);
   const std::size_t nodes = patch.nodes.size();
-  Scratch<T> scratch;
-  scratch.squared.assign(nodes * kLanes, T(kFar));
-  scratch.queue.resize(nodes);
-  scratch.is_queued.assign(nodes, 0);
-  scratch.is_touched.assign(nodes, 0);
+  Scratch<T> scratch(nodes);
 
   const double scale2 = scale * scale;
   for (std::size_t begin = 0; begin < order.size(); begin += kLanes) {

@@ -16,8 +16,9 @@ namespace onmesh {
 /// source is too little to tell.
 ///
 /// Our own are the order, by a queue that takes a node again whenever it came closer (label
-/// correcting) instead of by a heap, so that one march serves 16 sources, one per SIMD lane; and
-/// that all is done on squares.
+/// correcting), so that one march serves 16 sources, one per SIMD lane; and that all is done on
+/// squares. The queue is a plain one until nodes were visited many times, as beside needles; then
+/// it is a heap.
 std::unique_ptr<DistanceBackend> make_unfold();
 
 }  // namespace onmesh

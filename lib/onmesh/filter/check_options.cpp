@@ -16,15 +16,6 @@ constexpr double kLeastValue = 1e-15, kLargestValue = 1e15;
 /// More rings than an image has rows.
 constexpr int kMostRings = 32768;
 
-void check_weld(const Length& weld) {
-  if (weld.unit == Length::Unit::texel) {
-    throw OptionError("weld", "is in mesh units or percent, not in texels");
-  }
-  if (!(weld.value >= 0) || !std::isfinite(weld.value)) {
-    throw OptionError("weld", "must be finite and not negative");
-  }
-}
-
 /// Both ends belong to it.
 void check_between(const char* option, double value, double least, double largest) {
   if (value >= least && value <= largest) return;
@@ -46,7 +37,7 @@ void check_numbers(const FilterOptions& options) {
   check("node_spacing", options.node_spacing);
   require_within("tolerance", options.tolerance, 1e-9, 1e3);
   check("bridge", options.bridge);
-  if (options.weld) check_weld(*options.weld);
+  if (options.weld) require_tolerance("weld", *options.weld);
   check_between("strength", options.strength, 0, 1);
   check_between("detail_gain", options.detail_gain, -100, 100);
   if (options.threads < 0) throw OptionError("threads", "must not be negative");

@@ -23,6 +23,14 @@ struct Length {
 /// \throw OptionError if the text is anything else
 Length parse_length(std::string_view option, std::string_view text);
 
+/// Read a length between parts of a mesh, which may be 0 and knows no texels: "0.002" or "0.01%".
+/// \param option what the length is for, as the error names it
+/// \throw OptionError if the text is anything else
+Length parse_tolerance(std::string_view option, std::string_view text);
+
+/// \throw OptionError if the length is not such a one
+void require_tolerance(std::string_view option, const Length& length);
+
 /// The shortest text that parse_length() reads as the same length.
 std::string to_string(const Length& length);
 

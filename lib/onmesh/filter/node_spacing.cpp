@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "onmesh/mesh/components.h"
 #include "onmesh/nodes/expected_nodes.h"
+#include "onmesh/nodes/sizing_field.h"
 
 namespace onmesh {
 namespace {
@@ -32,16 +33,28 @@ double longest_texel_side(const PreparedMesh& prepared, Index face) {
   return std::sqrt((a + b) / 2 + std::hypot((a - b) / 2, c));
 }
 
+/// No texel is told from another by nodes on parts of the mesh that carry none and that nothing
+/// connects with those that do.
+void spare_parts_without_texels(const PreparedMesh& prepared, RefineOptions& options) {
+  const FaceComponents parts = connected_components(prepared.mesh);
+  std::vector<bool> has_texels(parts.count, false);
+  for (Index f = 0; f < prepared.mesh.faces.size(); ++f) {
+    if (options.needed[f]) has_texels[parts.of_face[f]] = true;
+  }
+  for (Index f = 0; f < prepared.mesh.faces.size(); ++f) {
+    if (!has_texels[parts.of_face[f]]) options.least_useful[f] = kNoNodes;
+  }
+}
+
 /// Distances have to be right as far around a node face as it is long, so that a few long ones make
 /// all patches large. They are kept as short as so many more nodes allow: radii first, longer and
 /// longer where there would be too many.
 void shorten_stretched(const PreparedMesh& prepared, double radius, RefineOptions& options) {
   constexpr double kRadii = 4, kStep = 2, kMoreNodes = 1.5;
   constexpr int kTries = 10;
-  constexpr double kNothing = std::numeric_limits<double>::max();
   double longest = 0;
   for (const double spacing : options.least_useful) {
-    if (spacing < kNothing) longest = std::max(longest, spacing);
+    if (spacing < kNoNodes) longest = std::max(longest, spacing);
   }
   if (longest <= kRadii * radius) return;
   const double enough = kMoreNodes * expected_nodes(prepared.mesh, options);
@@ -49,7 +62,7 @@ void shorten_stretched(const PreparedMesh& prepared, double radius, RefineOption
   for (int i = 0; i < kTries && limit < longest; ++i, limit *= kStep) {
     RefineOptions shorter = options;
     for (double& spacing : shorter.least_useful) {
-      if (spacing < kNothing) spacing = std::min(spacing, limit);
+      if (spacing < kNoNodes) spacing = std::min(spacing, limit);
     }
     if (!(expected_nodes(prepared.mesh, shorter) <= enough)) continue;  // also if it is NaN
     options = std::move(shorter);
@@ -82,11 +95,11 @@ RefineOptions refinement_for(const PreparedMesh& prepared, const WorkingPlan& pl
   for (const double area : prepared.map.texel_area) options.needed.push_back(area > 0);
   for (Index f = 0; f < prepared.mesh.faces.size(); ++f) {
     // What has no area holds nothing at all.
-    const double side = prepared.mesh.is_degenerate(f) ? std::numeric_limits<double>::max()
-                                                       : longest_texel_side(prepared, f);
+    const double side = prepared.mesh.is_degenerate(f) ? kNoNodes : longest_texel_side(prepared, f);
     const bool is_stretched = side > kStretch * plan.texel_size;
     options.least_useful.push_back(is_stretched ? side / kNodesPerTexel : 0);
   }
+  if (plan.bridge == 0) spare_parts_without_texels(prepared, options);
   // Patches reach three edges beyond the radius, from node faces that reach an edge beyond the
   // texels; some more keep the faces there as small as they are where the spacing is not yet
   // larger.

@@ -13,6 +13,9 @@
 namespace onmesh {
 namespace {
 
+/// The thinnest face that has an area; see TriangleMesh::is_degenerate().
+constexpr double kThinnest = 1e-12;
+
 std::string faces_text(Index count) { return count_text(count, "face", "faces"); }
 
 Index count_unused(const TriangleMesh& mesh) {
@@ -162,7 +165,6 @@ std::vector<Index> tiles_left(const SurfaceTextures& textures, const CleanReport
 void require_claims(const TriangleMesh& mesh, const TexelMap& map,
                     const std::vector<Index>& tile_of_face) {
   if (!map.claims.empty()) return;
-  if (mesh.faces.empty()) throw InputError("the mesh has no faces to filter on");
   bool any_uvs = false, any_uv_area = false, any_face = false;
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     any_uvs = any_uvs || mesh.has_uvs(f);
@@ -181,10 +183,48 @@ void require_claims(const TriangleMesh& mesh, const TexelMap& map,
   throw InputError("no texel of the texture lies on a face with area");
 }
 
-/// A power of two that brings a mesh to a size whose squares hold in double precision; 1 for all
-/// that have one.
-double scale_into_range(const TriangleMesh& mesh) {
-  if (mesh.positions.empty()) return 1;
+/// 1 : this, as messages tell it.
+std::string ratio_text(double ratio) { return "1 : " + number_text(ratio); }
+
+/// The largest ratio of a face's width to its length; 0 if all are points or lines.
+double widest_shape(const TriangleMesh& mesh) {
+  double widest = 0;
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    auto corner = mesh.corners(f);
+    // In units of its own size, so that squares hold.
+    double size = 0;
+    for (const Vec3& p : corner) size = std::max(size, (p - corner[0]).cwiseAbs().maxCoeff());
+    if (!(size > 0)) continue;
+    const Vec3 a = (corner[1] - corner[0]) / size, b = (corner[2] - corner[0]) / size;
+    const double longest = std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()});
+    widest = std::max(widest, a.cross(b).norm() / longest);
+  }
+  return widest;
+}
+
+/// \param mesh as given
+/// \throw InputError that says why, if no face of it was kept
+void require_faces(const TriangleMesh& mesh, const TriangleMesh& kept) {
+  if (!kept.faces.empty()) return;
+  if (mesh.faces.empty()) throw InputError("the mesh has no faces to filter on");
+  const double shape = widest_shape(mesh);
+  if (!(shape > 0)) {
+    throw InputError("no face of the mesh has any area: all are points or lines");
+  }
+  constexpr double kRounding = 1e-6;
+  if (shape < kThinnest * (1 + kRounding)) {
+    throw InputError("every face of the mesh is a needle, the widest of " + ratio_text(1 / shape) +
+                     ": beyond " + ratio_text(1 / kThinnest) + " rounding decides what they are");
+  }
+  throw InputError(
+      "the faces are too small beside the mesh: where some coordinates are 10^150 "
+      "times as large as others, areas do not hold in double precision");
+}
+
+/// The exponent of a power of two that brings a mesh to a size whose squares hold in double
+/// precision; 0 for all that have one.
+int exponent_into_range(const TriangleMesh& mesh) {
+  if (mesh.positions.empty()) return 0;
   Vec3 low = mesh.positions[0], high = low;
   for (const Vec3& p : mesh.positions) {
     low = low.cwiseMin(p);
@@ -192,7 +232,7 @@ double scale_into_range(const TriangleMesh& mesh) {
   }
   const double size = (high / 2 - low / 2).maxCoeff();
   const bool holds = !(size > 0) || (size > 0x1p-300 && size < 0x1p300);
-  return holds ? 1 : std::ldexp(1.0, -std::ilogb(size));
+  return holds ? 0 : -std::ilogb(size);
 }
 
 /// Working units are near the mesh's diagonal. Where texels are so much smaller that squares of
@@ -221,11 +261,13 @@ PreparedMesh prepare_mesh(const TriangleMesh& mesh, const SurfaceTextures& textu
   out.mesh = join_boundaries(out.mesh, weld_tolerance(out.mesh, options), &out.joining);
   warn_of_joining(out.joining, out.warnings);
   if (options.stop_at_materials) out.mesh = separate_materials(out.mesh);
-  const double scale = scale_into_range(out.mesh);
-  if (scale != 1) {
-    for (Vec3& p : out.mesh.positions) p *= scale;
+  // The power itself may be beyond what is a number.
+  const int exponent = exponent_into_range(out.mesh);
+  for (Vec3& p : out.mesh.positions) {
+    for (double& x : p) x = std::ldexp(x, exponent);
   }
   out.mesh = clean(out.mesh, &out.cleaning);
+  require_faces(mesh, out.mesh);
   for (Index& f : out.cleaning.kept) f = out.joining.face[f];
   warn_of_cleaning(mesh, out.cleaning, coarse.problem.empty() ? 0 : coarse.collapsed, out.warnings);
   if (options.distance == DistanceMethod::exact && !out.cleaning.manifold()) {
@@ -235,7 +277,7 @@ PreparedMesh prepare_mesh(const TriangleMesh& mesh, const SurfaceTextures& textu
 
   out.unit = std::exp2(std::ceil(std::log2(std::max(out.mesh.diagonal(), 1e-300))));
   for (Vec3& p : out.mesh.positions) p /= out.unit;
-  out.unit /= scale;
+  out.unit = std::ldexp(out.unit, -exponent);
 
   const std::vector<Index> tile_of_face = tiles_left(textures, out.cleaning);
   require_memory_for_texels(out.mesh, textures, tile_of_face, options);

@@ -18,12 +18,17 @@ constexpr double kMostNodes = 5e7;
 
 /// In working units.
 /// \throw OptionError if it is too small or too large beside the mesh for single precision
+/// \throw InputError if it is in texels, and these are what is too large
 double resolve_for(const PreparedMesh& prepared, const WorkingPlan& plan, const char* option,
                    const Length& length) {
   const double value = resolve(length, plan.texel_size, plan.diagonal);
   const double working = length.unit == Length::Unit::mesh ? value / prepared.unit : value;
   require_positive(option, value);
-  constexpr double kLeast = 1e-12, kLargest = 1e6;  // working units
+  constexpr double kLeast = 1e-12, kLargest = 1e12;  // working units
+  if (working > kLargest && length.unit == Length::Unit::texel && plan.texel_size > plan.diagonal) {
+    throw InputError("the UVs cover hardly anything of the texture: a texel is " +
+                     number_text(plan.texel_size / plan.diagonal) + " times as wide as the mesh");
+  }
   if (working < kLeast || working > kLargest) {
     throw OptionError(option, "is too " + std::string(working < kLeast ? "small" : "large") +
                                   " beside the mesh and its texels for single precision");

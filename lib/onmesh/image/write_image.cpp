@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <numeric>
 
 #include "onmesh/base/atomic_file.h"
 #include "onmesh/base/error.h"
@@ -161,6 +162,46 @@ void encode(const ImagePlace& place, const Image& image, const Encoding& encodin
   if (const int error = overwrite(place.path, bytes)) fail(std::strerror(error));
 }
 
+/// Channels of the image in the order in which a file has them: OpenEXR's are sorted by name.
+std::vector<std::size_t> order_in_file(const std::vector<std::string>& in_file,
+                                       const std::vector<std::string>& names) {
+  std::vector<std::size_t> order(in_file.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (names.size() != in_file.size()) return order;
+  for (std::size_t c = 0; c < order.size(); ++c) {
+    const auto same = std::find(names.begin(), names.end(), in_file[c]);
+    if (same == names.end()) break;
+    order[c] = std::size_t(same - names.begin());
+  }
+  return order;
+}
+
+template <class T>
+std::vector<T> in_order(const std::vector<T>& values, const std::vector<std::size_t>& order) {
+  std::vector<T> result;
+  for (const std::size_t i : order) result.push_back(values[i]);
+  return result;
+}
+
+/// Interleaved native pixels with their channels in another order.
+std::vector<std::byte> reorder(const std::vector<std::byte>& native,
+                               const std::vector<SampleType>& types,
+                               const std::vector<std::size_t>& order) {
+  if (std::is_sorted(order.begin(), order.end())) return native;
+  std::vector<std::size_t> offsets{0};
+  for (const SampleType type : types) offsets.push_back(offsets.back() + TypeDesc(type).size());
+  std::vector<std::byte> result;
+  result.reserve(native.size());
+  for (std::size_t at = 0; at < native.size(); at += offsets.back()) {
+    for (const std::size_t c : order) {
+      const auto pixel = native.begin() + std::ptrdiff_t(at);
+      result.insert(result.end(), pixel + std::ptrdiff_t(offsets[c]),
+                    pixel + std::ptrdiff_t(offsets[c + 1]));
+    }
+  }
+  return result;
+}
+
 /// Read the file back: writers report success on a full disk.
 void verify(const ImagePlace& place, const Image& image, const Encoding& encoding) {
   const auto fail = [&](const std::string& why) {
@@ -176,10 +217,11 @@ void verify(const ImagePlace& place, const Image& image, const Encoding& encodin
       fail("other dimensions");
     if (encoding.format->name == "openexr" && reader.windows() != encoding.windows)
       fail("another place in the plane");
-    if (lossless && reader.types() != encoding.types) fail("other depth");
+    const auto order = order_in_file(reader.spec().channelnames, image.channel_names);
+    if (lossless && reader.types() != in_order(encoding.types, order)) fail("other depth");
     reader.read([&](std::span<const std::byte> native, int row, int rows) {
       if (!lossless) return;
-      const auto expected = native_rows(image, encoding, row, rows);
+      const auto expected = reorder(native_rows(image, encoding, row, rows), encoding.types, order);
       if (!std::equal(native.begin(), native.end(), expected.begin(), expected.end()))
         fail("other values");
     });

@@ -22,7 +22,7 @@ class EdgeMatcher {
  public:
   EdgeMatcher(const TriangleMesh& mesh, const std::vector<BoundaryEdge>& edges,
               const ScaledPoints& scaled)
-      : mesh_(mesh), edges_(edges), scaled_(scaled), middles_(middles()) {}
+      : mesh_(mesh), edges_(edges), scaled_(scaled), middles_(middles(), reaches()) {}
 
   /// The edge's only partner, and whether it runs the other way; kNone for none or several.
   EdgeMatch only_partner(Index edge, bool& ambiguous) const {
@@ -52,6 +52,14 @@ class EdgeMatcher {
     points.reserve(edges_.size());
     for (const BoundaryEdge& edge : edges_) points.push_back({middle_of(edge), middle_of(edge)});
     return points;
+  }
+  /// tolerance_between() is no more for any other edge.
+  std::vector<double> reaches() const {
+    std::vector<double> reaches;
+    reaches.reserve(edges_.size());
+    for (const BoundaryEdge& edge : edges_)
+      reaches.push_back(kMostOfAnEdge * scaled_.length(edge.ends));
+    return reaches;
   }
 
   bool belongs(Index edge, Index other, bool opposite) const {

@@ -1,11 +1,14 @@
 #include "onmesh/mesh/segment_tree.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace onmesh {
 
-SegmentTree::SegmentTree(std::vector<Segment> segments) : segments_(std::move(segments)) {
+SegmentTree::SegmentTree(std::vector<Segment> segments, std::vector<double> reaches)
+    : segments_(std::move(segments)), reaches_(std::move(reaches)) {
+  reaches_.resize(segments_.size(), std::numeric_limits<double>::infinity());
   order_.resize(segments_.size());
   for (Index i = 0; i < order_.size(); ++i) order_[i] = i;
   std::size_t nodes = 1;
@@ -13,12 +16,14 @@ SegmentTree::SegmentTree(std::vector<Segment> segments) : segments_(std::move(se
   boxes_.resize(nodes);
   if (!order_.empty()) build({0, 0, static_cast<Index>(order_.size())});
   segments_ = {};  // the boxes tell enough
+  reaches_ = {};
 }
 
 void SegmentTree::build(const Node& node) {
   Box& box = boxes_[node.number];
-  box = {segments_[order_[node.begin]][0], segments_[order_[node.begin]][0]};
+  box = {segments_[order_[node.begin]][0], segments_[order_[node.begin]][0], 0};
   for (Index i = node.begin; i < node.end; ++i) {
+    box.reach = std::max(box.reach, reaches_[order_[i]]);
     for (const Vec3& end : segments_[order_[i]]) {
       box.low = box.low.cwiseMin(end);
       box.high = box.high.cwiseMax(end);
@@ -39,10 +44,11 @@ void SegmentTree::build(const Node& node) {
 
 /// The query's segment is clipped to the box, as large as the radius makes it, plane by plane.
 bool SegmentTree::may_hold(const Box& box, const Query& query) const {
+  const double radius = std::min(query.radius, box.reach);
   double from = 0, to = 1;
   for (int k = 0; k < 3; ++k) {
-    const double low = box.low[k] - query.radius - query.a[k];
-    const double high = box.high[k] + query.radius - query.a[k];
+    const double low = box.low[k] - radius - query.a[k];
+    const double high = box.high[k] + radius - query.a[k];
     const double way = query.b[k] - query.a[k];
     if (way == 0) {
       if (low > 0 || high < 0) return false;

@@ -15,12 +15,15 @@ class SegmentTree {
  public:
   using Segment = std::array<Vec3, 2>;
 
+  /// \param reaches per segment, beyond which it is of no use: it is then left out also where the
+  ///   query's radius is larger. Empty = none. What is small is passed by in searches for the
+  ///   neighbours of what is large, however much of it there is.
   /// \pre ends are finite
-  explicit SegmentTree(std::vector<Segment> segments);
+  explicit SegmentTree(std::vector<Segment> segments, std::vector<double> reaches = {});
 
-  /// Call visit(number) for all segments within `radius` of the one from a to b, and for some that
-  /// are farther away, in the same order every time. It returns the radius to go on with; negative
-  /// = that is all.
+  /// Call visit(number) for all segments within `radius` and their own reach of the one from a to
+  /// b, and for some that are farther away, in the same order every time. It returns the radius to
+  /// go on with; negative = that is all.
   template <class Visit>
   void visit_near(const Vec3& a, const Vec3& b, double radius, const Visit& visit) const {
     Query query{a, b, radius};
@@ -32,6 +35,7 @@ class SegmentTree {
 
   struct Box {
     Vec3 low, high;
+    double reach;  // the largest of its segments
   };
   struct Node {
     Index number;      // children of node n are 2 n + 1 and 2 n + 2
@@ -62,6 +66,7 @@ class SegmentTree {
   }
 
   std::vector<Segment> segments_;  // while the tree is built
+  std::vector<double> reaches_;    // the same
   std::vector<Index> order_;       // numbers of the segments, leaf by leaf
   std::vector<Box> boxes_;         // per node
 };

@@ -22,7 +22,7 @@ class TJunctions {
         left_apart_(left_apart),
         at_vertex_(edges, mesh.positions.size()),
         vertices_(boundary_vertices()),
-        tree_(points()) {}
+        tree_(points(), reaches()) {}
 
   /// Where the edge is to be split, along it.
   std::vector<EdgeSplit> on(const BoundaryEdge& edge) const {
@@ -60,6 +60,19 @@ class TJunctions {
     for (const Index v : vertices_) points.push_back({scaled_.points[v], scaled_.points[v]});
     return points;
   }
+  std::vector<double> reaches() const {
+    std::vector<double> reaches;
+    for (const Index v : vertices_) reaches.push_back(least_cap(v));
+    return reaches;
+  }
+
+  /// The tolerance of a vertex is no more for any edge.
+  double least_cap(Index vertex) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Index e : at_vertex_.at(vertex))
+      least = std::min(least, kMostOfAnEdge * scaled_.length(edges_[e].ends));
+    return least;
+  }
 
   double tolerance_at(const BoundaryEdge& edge, Index vertex) const {
     return std::max(scaled_.tolerance_along(edge.ends), scaled_.tolerance[vertex]);
@@ -71,9 +84,7 @@ class TJunctions {
     if (std::find(corners.begin(), corners.end(), vertex) != corners.end()) return;
     const auto& points = scaled_.points;
     const auto [a, b] = edge.ends;
-    double t = std::min(cap, tolerance_at(edge, vertex));
-    for (const Index e : at_vertex_.at(vertex))
-      t = std::min(t, kMostOfAnEdge * scaled_.length(edges_[e].ends));
+    const double t = std::min({cap, tolerance_at(edge, vertex), least_cap(vertex)});
     EdgeSplit split{edge.face, edge.corner, 0, vertex, kNone};
     const double d2 =
         squared_distance_to_segment(points[vertex], points[a], points[b], &split.position);

@@ -101,6 +101,7 @@ class EarClipping {
       previous_.push_back((i + Index(left_) - 1) % Index(left_));
     }
     cut_off_.assign(left_, false);
+    for (auto& blockers : blockers_) blockers.assign(left_, kNone);
   }
 
   Triangles run() {
@@ -111,6 +112,7 @@ class EarClipping {
       result.push_back(triangle(ear));
       next_[previous_[ear]] = next_[ear];
       previous_[next_[ear]] = previous_[ear];
+      for (auto& blockers : blockers_) blockers[previous_[ear]] = blockers[next_[ear]] = kNone;
       cut_off_[ear] = true;
       first_ = first_ == ear ? next_[ear] : first_;
       start_ = next_[ear];
@@ -127,21 +129,26 @@ class EarClipping {
 
   /// No other corner lies in the ear; `closed` counts its edges in. Corners on the ear's own
   /// corners do not block: polygons with holes run along their bridges twice.
-  bool is_free(const std::array<Index, 3>& t, bool closed) const {
+  bool is_free(const std::array<Index, 3>& t, bool closed) {
+    Index& blocker = blockers_[closed ? 1 : 0][t[1]];
+    // The same corner is still there: along a zigzag ribbon nearly all ears wait for others.
+    if (blocker != kNone && !cut_off_[blocker]) return false;
     const Vec2 &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]];
     const auto blocks = [&](Index i) {
       const Vec2& p = points_[i];
       if (cut_off_[i] || p == a || p == b || p == c) return false;
       const double least =
           std::min({twice_area(a, b, p), twice_area(b, c, p), twice_area(c, a, p)});
-      return closed ? least >= 0 : least > 0;
+      if (!(closed ? least >= 0 : least > 0)) return false;
+      blocker = i;
+      return true;
     };
     return !cells_.any_in_box(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c), blocks);
   }
 
   /// The best-shaped ear of a small polygon, the next good one of a large one (a search for the
   /// best would take cubic time); ears without area only when there is no other.
-  Index find_ear() const {
+  Index find_ear() {
     constexpr std::size_t kSmall = 64;
     Index best = kNone;
     double best_shape = 0;
@@ -172,6 +179,8 @@ class EarClipping {
   std::size_t left_ = 0;
   std::vector<Index> next_, previous_;  // of those left
   std::vector<bool> cut_off_;
+  /// By whether edges count in, per ear the corner that it was found to hold; kNone = not known.
+  std::array<std::vector<Index>, 2> blockers_;
   Index first_ = 0;  // the lowest that is left
   Index start_ = 0;  // where to look for the next ear
 };

@@ -33,6 +33,8 @@ constexpr double kFinestCircumradius = 1e-3;
 constexpr double kSame = 1e-9;
 // Nodes for the sake of shape end at so many times those for the sake of size.
 constexpr Index kNodesForShape = 4;
+// They leave some of the nodes that there may be: new ones can make faces too large again.
+constexpr double kShareForShape = 0.9;
 // A circumcentre whose barycentric coordinate is below this goes onto the edge.
 constexpr double kOnEdge = 1e-3;
 
@@ -90,7 +92,8 @@ class Refiner {
   // strip beside its length they would need any number: these stay thin.
   bool may_insert_for_shape() {
     if (sized_nodes_ == 0) sized_nodes_ = t_.node_count();
-    return t_.node_count() < kNodesForShape * sized_nodes_ + 1000;
+    return t_.node_count() < kNodesForShape * sized_nodes_ + 1000 &&
+           t_.node_count() < kShareForShape * options_.max_nodes;
   }
 
   // Nothing is asked of the shape of faces where no nodes are needed.

@@ -5,8 +5,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include "onmesh/base/plane.h"
 #include "onmesh/base/triangle.h"
@@ -16,6 +18,18 @@ namespace {
 
 // A laid-out edge and its signpost agree to this many radians if both are of the same placement.
 constexpr double kSameWay = 0.1;
+
+// A face meets a few of the other mesh on average, but around a surface that is drawn out to a
+// point: there n faces and m node faces that wind around it overlap n m times.
+constexpr std::size_t kMostPiecesPerFace = 32;
+// 20 MB, so that what is small is left alone.
+constexpr std::size_t kFewPieces = 1 << 18;
+
+std::size_t most_pieces_of(const IntrinsicTriangulation& triangulation) {
+  const std::size_t faces =
+      std::size_t{triangulation.input().edges().face_count()} + triangulation.edges().face_count();
+  return std::max(kFewPieces, kMostPiecesPerFace * faces);
+}
 
 using Corners = std::array<Vec2, 3>;
 
@@ -37,13 +51,14 @@ class Layouter {
   explicit Layouter(const IntrinsicTriangulation& triangulation)
       : t_(triangulation), newest_(triangulation.edges().face_count(), Seen{kNone, kNone}) {}
 
-  void lay_out(Index face, std::vector<OverlayPiece>& pieces) {
+  /// \param most pieces to lay out; the face gets no more
+  void lay_out(Index face, std::size_t most, std::vector<OverlayPiece>& pieces) {
     face_ = face;
     input_ = t_.input().layout(face);
     placed_.clear();
     margin_ = 1e-8 * smallest_altitude();
     start();
-    for (std::size_t i = 0; i < placed_.size(); ++i) {
+    for (std::size_t i = 0; i < placed_.size() && placed_.size() <= most; ++i) {
       for (Index k = 0; k < 3; ++k) cross_edge(i, k);
     }
     for (const Placed& p : placed_) {
@@ -240,6 +255,7 @@ class Layouter {
 
 Overlay make_overlay(const IntrinsicTriangulation& triangulation) {
   const Index faces = triangulation.input().edges().face_count();
+  const std::size_t most_pieces = most_pieces_of(triangulation);
   const Index least_pieces = std::max(faces, triangulation.edges().face_count());
   const Index blocks = std::clamp<Index>(least_pieces / 4096, 1, std::clamp<Index>(faces, 1, 64)),
               size = (faces + blocks - 1) / blocks;
@@ -247,14 +263,22 @@ Overlay make_overlay(const IntrinsicTriangulation& triangulation) {
   tbb::enumerable_thread_specific<Layouter> layouters([&] { return Layouter(triangulation); });
   std::vector<std::vector<OverlayPiece>> pieces(blocks);
   std::vector<Index> counts(faces, 0);
+  std::atomic<std::size_t> laid_out = 0;
   tbb::parallel_for(Index{0}, blocks, [&](Index block) {
     Layouter& layouter = layouters.local();
     for (Index f = block * size; f < std::min(faces, (block + 1) * size); ++f) {
+      // Whether there are too many in the end does not depend on who comes first.
+      if (laid_out > most_pieces) return;
       const std::size_t before = pieces[block].size();
-      layouter.lay_out(f, pieces[block]);
+      layouter.lay_out(f, most_pieces, pieces[block]);
       counts[f] = static_cast<Index>(pieces[block].size() - before);
+      laid_out += counts[f];
     }
   });
+  if (laid_out > most_pieces) {
+    throw TooManyPieces("the nodes lie over more than " + std::to_string(most_pieces) +
+                        " pieces of the mesh's faces");
+  }
   Overlay overlay;
   overlay.face_offsets.assign(faces + 1, 0);
   for (Index f = 0; f < faces; ++f)

@@ -100,6 +100,8 @@ NodeSurface refine(const TriangleMesh& mesh, const CleanReport& cleaning,
       if (is_laid_out(mesh, surface.overlay)) return surface;
     } catch (const TooManyNodes&) {
       if (!limited) throw;
+    } catch (const TooManyPieces&) {
+      // Bisected faces lie in one face of the input each.
     }
   }
   return limited ? bisect_within_limit(mesh, options, report)

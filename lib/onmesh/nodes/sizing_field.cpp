@@ -178,6 +178,18 @@ struct Neighbours {
   }
 };
 
+/// Vertices around which every face with area is to have no nodes.
+std::vector<bool> spared_vertices(const TriangleMesh& mesh, const RefineOptions& options) {
+  std::vector<bool> spared(mesh.positions.size(), false), used = spared;
+  for (Index f = 0; f < options.least_useful.size(); ++f) {
+    if (mesh.is_degenerate(f)) continue;
+    const bool is_spared = options.least_useful[f] == kNoNodes;
+    for (const Index v : mesh.faces[f]) (is_spared ? spared : used)[v] = true;
+  }
+  for (Index v = 0; v < spared.size(); ++v) spared[v] = spared[v] && !used[v];
+  return spared;
+}
+
 /// Lower the spacing around each vertex to what its own and `growth` allow along the edges
 /// (Dijkstra's algorithm from all vertices at once, the finest first).
 void limit_growth(const TriangleMesh& mesh, const EdgeTable& edges, double flat, double growth,
@@ -237,8 +249,10 @@ std::vector<double> wanted_spacing(const TriangleMesh& mesh, const EdgeTable& ed
   const std::vector<Around> around = look_around(mesh, edges);
   const std::vector<double> bend = bends(mesh, edges, around);
   std::vector<double> spacing(mesh.positions.size(), options.spacing);
+  const std::vector<bool> spared = spared_vertices(mesh, options);
   for (Index v = 0; v < spacing.size(); ++v) {
     if (around[v].faces > 0) spacing[v] = spacing_at(bend[v], around[v].area, options);
+    if (spared[v]) spacing[v] = kNoNodes;
   }
   limit_growth(mesh, edges, options.spacing, options.growth, spacing);
   return spacing;

@@ -2,6 +2,7 @@
 // from what needs them.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "onmesh/nodes/refine.h"
 
 namespace onmesh {
+
+/// In RefineOptions::least_useful: the face needs none but its vertices.
+inline constexpr double kNoNodes = std::numeric_limits<double>::max();
 
 /// \throw OptionError if a number is outside its domain, or an array has not one entry per face
 void check_refine_options(const TriangleMesh& mesh, const RefineOptions& options);
@@ -28,7 +32,8 @@ double largest_spacing(const RefineOptions& options, const SurfacePoint& point);
 /// from 2 pi, and how far the link reaches beyond pi. Pages on a straight spine have none, as any
 /// two of them make a flat sheet; the tip of a bow tie, which all paths from one part to the other
 /// pass, has the largest, 2 pi.
-/// \return mesh units, per vertex; options.spacing at vertices without faces
+/// \return mesh units, per vertex; options.spacing at vertices without faces, kNoNodes at those
+///   around which all faces with area have it
 std::vector<double> wanted_spacing(const TriangleMesh& mesh, const EdgeTable& edges,
                                    const RefineOptions& options);
 
