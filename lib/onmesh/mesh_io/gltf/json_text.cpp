@@ -100,13 +100,14 @@ std::size_t value_of(std::string_view text, std::size_t object, std::string_view
 
 JsonText::Object JsonText::element(const std::string& list, std::size_t i) {
   const auto [found, is_new] = lists_.try_emplace(list);
+  std::vector<Object>& elements = found->second;
   if (is_new) {
     for_each_in(text_, value_of(text_, text_.find('{'), list), [&](std::size_t at) {
-      found->second.push_back(at);
+      elements.push_back(at);
       return skip_value(text_, at);
     });
   }
-  return found->second[i];
+  return elements[i];
 }
 
 JsonText::Object JsonText::object(Object in, std::string_view key) const {
