@@ -56,9 +56,9 @@ GraphMatrix grid(Index size, float stretch) {
   return builder.matrix();
 }
 
-std::vector<float> times(const GraphMatrix& m, const std::vector<float>& x, int channels) {
+LargeArray<float> times(const GraphMatrix& m, const LargeArray<float>& x, int channels) {
   const auto n = std::size_t(channels);
-  std::vector<float> result(x.size());
+  LargeArray<float> result(x.size());
   for (Index i = 0; i < m.rows(); ++i) {
     for (std::size_t c = 0; c < n; ++c) {
       double sum = double(m.diagonal[i]) * x[i * n + c];
@@ -77,7 +77,7 @@ TEST_CASE("the solver gives back what was multiplied", "[laplace_solver]") {
   const int channels = GENERATE(1, 3, 6);
   const Index size = GENERATE(Index{5}, Index{150});
   const GraphMatrix matrix = grid(size, stretch);
-  std::vector<float> x;
+  LargeArray<float> x;
   for (Index i = 0; i < size * size; ++i) {
     for (int c = 0; c < channels; ++c)
       x.push_back(float(
@@ -85,7 +85,7 @@ TEST_CASE("the solver gives back what was multiplied", "[laplace_solver]") {
   }
   const LaplaceSolver solver(matrix);
   CHECK((solver.levels() > 1) == (size > 100));
-  const std::vector<float> found = solver.solve(times(matrix, x, channels), channels, 1e-6);
+  const LargeArray<float> found = solver.solve(times(matrix, x, channels), channels, 1e-6);
   double worst = 0;
   for (std::size_t k = 0; k < x.size(); ++k)
     worst = std::max(worst, std::abs(double(found[k]) - x[k]));
@@ -94,7 +94,7 @@ TEST_CASE("the solver gives back what was multiplied", "[laplace_solver]") {
 
 TEST_CASE("solutions do not depend on the number of threads", "[laplace_solver]") {
   const GraphMatrix matrix = grid(200, 2);
-  std::vector<float> right(matrix.rows());
+  LargeArray<float> right(matrix.rows());
   std::mt19937 random(5);
   for (float& v : right) v = float(random() % 1000) / 1000;
   const auto solve = [&](int threads) {
@@ -113,9 +113,9 @@ TEST_CASE("parts that nothing joins, and thousands of them, are solved", "[lapla
     builder.link_to_zero(2 * p, 1);
   }
   const GraphMatrix matrix = builder.matrix();
-  std::vector<float> x(2 * kParts);
+  LargeArray<float> x(2 * kParts);
   for (Index i = 0; i < 2 * kParts; ++i) x[i] = float(i % 17);
-  const std::vector<float> found = LaplaceSolver(matrix).solve(times(matrix, x, 1), 1, 1e-6);
+  const LargeArray<float> found = LaplaceSolver(matrix).solve(times(matrix, x, 1), 1, 1e-6);
   for (Index i = 0; i < 2 * kParts; ++i) REQUIRE(found[i] == Approx(x[i]).margin(1e-3));
 }
 

@@ -71,7 +71,7 @@ std::uint64_t harmonic_fill(const TriangleMesh& mesh, const TexelMap& map,
   }
   const std::vector<KnownValues> known = known_values(graph, channels, values);
   const std::size_t count = channels.size();
-  std::vector<float> right(missing.size() * count);
+  LargeArray<float> right(missing.size() * count);
   over_blocks(missing.size(), [&](std::size_t begin, std::size_t end) {
     std::vector<double> sum(count);
     for (std::size_t i = begin; i < end; ++i) {
@@ -85,7 +85,7 @@ std::uint64_t harmonic_fill(const TriangleMesh& mesh, const TexelMap& map,
     }
   });
   const LaplaceSolver solver(std::move(graph.matrix));
-  const std::vector<float> solution = solver.solve(right, int(count), kTolerance);
+  const LargeArray<float> solution = solver.solve(right, int(count), kTolerance);
   over_blocks(missing.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (reached[i] == 0) continue;

@@ -164,7 +164,7 @@ BlockLinks find_links(const LinkFinder& finder, const std::vector<Index>& unknow
 /// Over seams both sides have links of their own, each for half; what is known has none.
 /// \return the links of both sides, by row
 std::vector<SeamLink> both_ways(std::vector<BlockLinks>& blocks, const std::vector<Index>& unknown,
-                                const std::vector<Index>& row_of) {
+                                const LargeArray<Index>& row_of) {
   std::vector<SeamLink> links;
   for (BlockLinks& block : blocks) {
     for (SeamLink one : block.over_seams) {
@@ -209,7 +209,10 @@ class RowLinks {
 TexelGraph make_texel_graph(const TriangleMesh& mesh, const TexelMap& map,
                             const std::vector<Index>& unknown) {
   const LinkFinder finder(mesh, map);
-  std::vector<Index> row_of(map.coverage.size(), kNone);
+  LargeArray<Index> row_of(map.coverage.size());
+  over_blocks(row_of.size(), [&](std::size_t begin, std::size_t end) {
+    std::fill(row_of.begin() + std::ptrdiff_t(begin), row_of.begin() + std::ptrdiff_t(end), kNone);
+  });
   for (std::size_t i = 0; i < unknown.size(); ++i) row_of[unknown[i]] = Index(i);
   std::vector<BlockLinks> blocks((unknown.size() + kBlock - 1) / kBlock);
   parallel_over(blocks.size(), [&](std::size_t block) {

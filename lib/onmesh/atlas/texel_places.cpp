@@ -1,9 +1,16 @@
 #include "onmesh/atlas/texel_places.h"
 
+#include <algorithm>
+
+#include "onmesh/base/parallel.h"
+
 namespace onmesh {
 
 TexelPlaces::TexelPlaces(const TexelMap& map)
-    : map_(map), faces_(map.coverage.size(), kNone), claims_(map.coverage.size()) {
+    : map_(map), faces_(map.coverage.size()), claims_(map.coverage.size()) {
+  over_blocks(faces_.size(), [&](std::size_t begin, std::size_t end) {
+    std::fill(faces_.begin() + std::ptrdiff_t(begin), faces_.begin() + std::ptrdiff_t(end), kNone);
+  });
   for (Index f = 0; f + 1 < map.face_offsets.size(); ++f) {
     const TexelTile tile = map.tile_of(f);
     for (Index k = map.face_offsets[f]; k < map.face_offsets[f + 1]; ++k) {

@@ -26,7 +26,7 @@ class TexelPlaces {
 
  private:
   const TexelMap& map_;
-  std::vector<Index> faces_;
+  LargeArray<Index> faces_;
   LargeArray<TexelClaim> claims_;
 };
 

@@ -177,14 +177,19 @@ class LaplaceSolver::Cycle {
   /// Conjugate gradients, each channel with steps of its own.
   /// \param residual the right sides, used up
   void solve(Vector& residual, double tolerance, Vector& x) {
-    x.assign(residual.size(), 0);
-    Vector direction(residual.size(), 0);
+    Vector direction(residual.size());
     Vector &correction = scratch_[0][kResult], &image = scratch_[0][kImage];
     Sums before = Sums::Zero(), first = Sums::Zero();
     for (int step = 0; step < kMostSteps; ++step) {
       precondition(0, residual, correction);
       const Sums now = dot(residual, correction);
-      if (step == 0) first = now;
+      if (step == 0) {
+        first = now;
+        over_rows(0, [&](std::size_t i) {
+          at(x, i) = Numbers::Zero();
+          at(direction, i) = Numbers::Zero();
+        });
+      }
       if ((now <= tolerance * tolerance * first).all()) return;
       const Numbers turn = numbers(quotient(now, before));
       over_rows(0, [&](std::size_t i) {
@@ -355,20 +360,25 @@ LaplaceSolver::~LaplaceSolver() = default;
 
 std::size_t LaplaceSolver::levels() const { return levels_.size(); }
 
-std::vector<float> LaplaceSolver::solve(const std::vector<float>& right, int channels,
-                                        double tolerance) const {
+LargeArray<float> LaplaceSolver::solve(const LargeArray<float>& right, int channels,
+                                       double tolerance) const {
   // Four at once are as fast as three: a row is one register then.
-  const auto take = [&]<int width>(std::vector<float>& result, int first) {
+  const auto take = [&]<int width>(LargeArray<float>& result, int first) {
     const std::size_t rows = levels_[0].matrix.rows(), stride = std::size_t(channels);
     const int count = std::min(width, channels - first);
-    LargeArray<float> side(rows * width, 0), x;
-    for (std::size_t i = 0; i < rows; ++i)
-      std::copy_n(&right[i * stride + std::size_t(first)], count, &side[i * width]);
+    LargeArray<float> side(rows * width), x(rows * width);
+    over_blocks(rows, [&](std::size_t begin, std::size_t end) {
+      std::fill(&side[begin * width], &side[0] + end * width, 0.F);
+      for (std::size_t i = begin; i < end; ++i)
+        std::copy_n(&right[i * stride + std::size_t(first)], count, &side[i * width]);
+    });
     Cycle<width>(*this).solve(side, tolerance, x);
-    for (std::size_t i = 0; i < rows; ++i)
-      std::copy_n(&x[i * width], count, &result[i * stride + std::size_t(first)]);
+    over_blocks(rows, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        std::copy_n(&x[i * width], count, &result[i * stride + std::size_t(first)]);
+    });
   };
-  std::vector<float> result(right.size());
+  LargeArray<float> result(right.size());
   for (int first = 0; first < channels;) {
     if (channels - first == 1) {
       take.template operator()<1>(result, first);

@@ -41,7 +41,7 @@ class LaplaceSolver {
   /// \param tolerance of the error, in the norm of the matrix and as far as the preconditioner
   ///   tells, as a share of that of zeros
   /// \return the solution, in the same order
-  std::vector<float> solve(const std::vector<float>& right, int channels, double tolerance) const;
+  LargeArray<float> solve(const LargeArray<float>& right, int channels, double tolerance) const;
 
   /// How many levels there are.
   std::size_t levels() const;
