@@ -28,7 +28,8 @@ NamedTexture split_role(const std::string& text) {
 void add_colour_space_options(boost::program_options::options_description& options) {
   auto add = options.add_options();
   add("colorspace", text(),
-      "what the codes of all textures mean as light: sRGB, Rec709, GammaX (as Gamma2.2), linear, "
+      "what the codes of all textures mean as light: sRGB, Rec709, GammaX (as Gamma2.2), ACEScg, "
+      "linear, "
       "raw, or a colour space of $OCIO (default: by role, glTF slot, the file's tag; else integers "
       "of three channels or more are sRGB)");
   add("raw", flag(), "average codes as they are, the same as --colorspace raw");

@@ -179,7 +179,7 @@ TEST_CASE("alpha spreads with the weights of the filter", "[masks]") {
   }
   Image opaque = make_image(8, 8, 3);
   CHECK_THROWS_WITH(run(opaque, options, nullptr, nullptr),
-                    Catch::Contains("there is no alpha to filter: the texture has 3 channels"));
+                    Catch::Contains("there is no alpha: the texture has 3 channels"));
 }
 
 TEST_CASE("a surface whose texels are all left out is refused", "[masks]") {

@@ -268,6 +268,17 @@ TEST_CASE("beside a hot texel values are what they are without it", "[working_va
   }
 }
 
+TEST_CASE("oklab and luminance know the primaries", "[working_values]") {
+  const auto aces = find_colour_space("ACEScg");
+  // The green of Rec. 709 in AP1 primaries.
+  const float green[] = {0.33953F, 0.91635F, 0.10957F}, in_rec709[] = {0, 1, 0};
+  CHECK(luminance(green, 3, aces->to_rec709()) == Approx(0.7152).margin(1e-3));
+  float a[3], b[3];
+  RangeFeatures(RangeSpace::oklab, 3, 1, aces->to_rec709()).of(green, green, a);
+  RangeFeatures(RangeSpace::oklab, 3, 1).of(in_rec709, in_rec709, b);
+  for (int c = 0; c < 3; ++c) CHECK(a[c] == Approx(b[c]).margin(5e-3));
+}
+
 TEST_CASE("oklab is that of its author's examples", "[working_values]") {
   // White, and the red of sRGB (Ottosson 2020).
   const RangeFeatures oklab(RangeSpace::oklab, 3, 1);

@@ -96,4 +96,19 @@ TEST_CASE("only files that say so hold colours multiplied with alpha", "[colour_
   CHECK_FALSE(is_premultiplied(make_image(2, 2, 4)));
 }
 
+TEST_CASE("ACEScg is linear light of other primaries", "[colour_space]") {
+  const auto space = find_colour_space("acescg");
+  REQUIRE(space);
+  float values[] = {0.25F, -1, 7};
+  space->to_linear(values, 1, 3);
+  CHECK(values[2] == 7);
+  REQUIRE(space->to_rec709() != nullptr);
+  // White stays white.
+  for (int row = 0; row < 3; ++row) {
+    const float* const m = space->to_rec709() + 3 * row;
+    CHECK(m[0] + m[1] + m[2] == Approx(1).margin(1e-4));
+  }
+  CHECK(find_colour_space("sRGB")->to_rec709() == nullptr);
+}
+
 }  // namespace onmesh

@@ -181,7 +181,7 @@ TEST_CASE("masks say what is taken and what counts", "[tools][values]") {
   check_refused(space, "filter m.obj -o x.png --mask alpha.exr" + blur, 3, "alpha.exr");
   check_refused(space, "filter m.obj -o x.png --mask none.png" + blur, 4, "none.png");
   check_refused(space, "filter m.obj -o x.png --strength 2" + blur, 2, "--strength: 2 is not");
-  check_refused(space, "filter m.obj -o x.png --alpha" + blur, 3, "there is no alpha to filter");
+  check_refused(space, "filter m.obj -o x.png --alpha" + blur, 3, "there is no alpha");
 }
 
 TEST_CASE("detail and output give the texture again", "[tools][values]") {

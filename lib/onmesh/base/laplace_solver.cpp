@@ -15,6 +15,21 @@
 #include "onmesh/base/parallel.h"
 
 namespace onmesh {
+
+/// The fine rows of each coarse one.
+struct RowGroups {
+  std::vector<Index> offsets, rows;
+
+  RowGroups() = default;
+  RowGroups(const std::vector<Index>& group, Index groups)
+      : offsets(groups + 1, 0), rows(group.size()) {
+    for (const Index g : group) ++offsets[g + 1];
+    for (std::size_t g = 1; g < offsets.size(); ++g) offsets[g] += offsets[g - 1];
+    std::vector<Index> next(offsets.begin(), offsets.end() - 1);
+    for (Index i = 0; i < group.size(); ++i) rows[next[group[i]]++] = i;
+  }
+};
+
 namespace {
 
 /// A system of no more rows is factorised.
@@ -50,26 +65,12 @@ std::vector<Index> pair_up(const GraphMatrix& a, Index& pairs) {
   return pair;
 }
 
-/// The fine rows of each coarse one.
-struct Groups {
-  std::vector<Index> offsets, rows;
-
-  Groups() = default;
-  Groups(const std::vector<Index>& group, Index groups)
-      : offsets(groups + 1, 0), rows(group.size()) {
-    for (const Index g : group) ++offsets[g + 1];
-    for (std::size_t g = 1; g < offsets.size(); ++g) offsets[g] += offsets[g - 1];
-    std::vector<Index> next(offsets.begin(), offsets.end() - 1);
-    for (Index i = 0; i < group.size(); ++i) rows[next[group[i]]++] = i;
-  }
-};
-
 /// A coarse row under way: few entries, so that looking for a column is quick.
 struct CoarseRow {
   std::vector<std::pair<Index, float>> entries;  ///< column, weight
   double diagonal = 0;
 
-  void gather(const GraphMatrix& a, const std::vector<Index>& group, const Groups& groups,
+  void gather(const GraphMatrix& a, const std::vector<Index>& group, const RowGroups& groups,
               Index g) {
     entries.clear();
     diagonal = 0;
@@ -97,7 +98,7 @@ struct CoarseRow {
 /// The sum of the matrix over groups of rows and columns (Galerkin's coarse matrix of a constant
 /// per group).
 GraphMatrix coarsen(const GraphMatrix& a, const std::vector<Index>& group, Index groups) {
-  const Groups members(group, groups);
+  const RowGroups members(group, groups);
   GraphMatrix coarse;
   coarse.offsets.assign(groups + 1, 0);
   coarse.diagonal.resize(groups);
@@ -136,7 +137,7 @@ struct LaplaceSolver::Level {
   GraphMatrix matrix;
   LargeArray<float> step;    ///< kDamping / diagonal
   std::vector<Index> group;  ///< per row, into the rows of the next level; none on the coarsest
-  Groups groups;             ///< the same, from the next level's side
+  RowGroups groups;          ///< the same, from the next level's side
 
   explicit Level(GraphMatrix of) : matrix(std::move(of)), step(matrix.diagonal.size()) {
     for (std::size_t i = 0; i < step.size(); ++i) step[i] = kDamping / matrix.diagonal[i];
@@ -349,7 +350,7 @@ LaplaceSolver::LaplaceSolver(GraphMatrix matrix) {
     std::vector<Index> group(fine.rows());
     for (Index i = 0; i < fine.rows(); ++i) group[i] = group_of_pair[pair[i]];
     GraphMatrix coarse = coarsen(halved, group_of_pair, groups);
-    levels_.back().groups = Groups(group, groups);
+    levels_.back().groups = RowGroups(group, groups);
     levels_.back().group = std::move(group);
     levels_.emplace_back(std::move(coarse));
   }

@@ -138,7 +138,7 @@ void check_arrays(const TriangleMesh& mesh) {
 void check_alpha(const SurfaceTextures& textures) {
   const Image& first = *textures.tiles[0].image;
   if (first.alpha_channel < 0)
-    throw InputError("there is no alpha to filter: the texture has " + channels_text(first));
+    throw InputError("there is no alpha: the texture has " + channels_text(first));
 }
 
 void check_textures(const SurfaceTextures& textures, std::size_t faces, RangeSpace range_space) {

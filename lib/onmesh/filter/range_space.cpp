@@ -1,6 +1,7 @@
 #include "onmesh/filter/range_space.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -23,10 +24,26 @@ void oklab(const float* rgb, float* lab) {
   lab[2] = 0.0259040371F * l + 0.7827717662F * m - 0.8086757660F * s;
 }
 
+using Rgb = std::array<float, 3>;
+
+Rgb in_rec709(const float* light, const float* to_rec709) {
+  if (to_rec709 == nullptr) return {light[0], light[1], light[2]};
+  Rgb rgb;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float* const row = to_rec709 + 3 * i;
+    rgb[i] = row[0] * light[0] + row[1] * light[1] + row[2] * light[2];
+  }
+  return rgb;
+}
+
 }  // namespace
 
-RangeFeatures::RangeFeatures(RangeSpace space, int channels, double mean_light)
-    : space_(space), channels_(channels), log_scale_(float(kLogGain * kKey / mean_light)) {}
+RangeFeatures::RangeFeatures(RangeSpace space, int channels, double mean_light,
+                             const float* to_rec709)
+    : space_(space),
+      channels_(channels),
+      log_scale_(float(kLogGain * kKey / mean_light)),
+      to_rec709_(to_rec709) {}
 
 void RangeFeatures::of(const float* codes, const float* light, float* features) const {
   switch (space_) {
@@ -41,13 +58,16 @@ void RangeFeatures::of(const float* codes, const float* light, float* features) 
         features[c] = std::copysign(std::log1p(log_scale_ * std::abs(light[c])), light[c]);
       break;
     case RangeSpace::oklab:
-      oklab(light, features);
+      oklab(in_rec709(light, to_rec709_).data(), features);
       break;
   }
 }
 
-double luminance(const float* light, int channels) {
-  if (channels == 3) return 0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2];
+double luminance(const float* light, int channels, const float* to_rec709) {
+  if (channels == 3) {
+    const Rgb rgb = in_rec709(light, to_rec709);
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+  }
   return std::accumulate(light, light + channels, 0.0) / channels;
 }
 

@@ -184,7 +184,7 @@ void WorkingValues::leave_out(const std::vector<float>& sample_weights) {
 void WorkingValues::make_features() {
   if (colours_.first_value == 0 || options_.range_space == RangeSpace::code) return;
   const auto channels = channels_.size(), stride = std::size_t(colours_.stride);
-  const RangeFeatures features(options_.range_space, int(channels), mean_light());
+  const RangeFeatures features(options_.range_space, int(channels), mean_light(), to_rec709());
   over_blocks(textures_.values().size(), [&](std::size_t begin, std::size_t end) {
     std::vector<float> result(channels);
     for (std::size_t t = begin; t < end; ++t) {
@@ -221,7 +221,7 @@ double WorkingValues::mean_light() const {
     double logs = 0, count = 0;
     for (Index k = map_.face_offsets[f]; k < map_.face_offsets[f + 1]; ++k) {
       const Index texel = map_.tile_of(f).texel(map_.claims[k]);
-      const double light = luminance(straight_.values_of(texel), straight_.channels);
+      const double light = luminance(straight_.values_of(texel), straight_.channels, to_rec709());
       if (!(light > 0) || !std::isfinite(light)) continue;
       logs += std::log(light);
       ++count;

@@ -62,6 +62,7 @@ class WorkingValues {
   void make_features();
   void multiply_with_alpha();
   double mean_light() const;
+  const float* to_rec709() const { return space_ != nullptr ? space_->to_rec709() : nullptr; }
   void count_missing();
   void count_emission();
 

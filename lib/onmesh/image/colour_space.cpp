@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,20 @@ struct Power {
 constexpr Power kSrgb{2.4F, 0.055F, 12.92F, 0.04045F};
 // With so many digits both parts meet (ITU-R BT.2020, which has the same curve).
 constexpr Power kRec709{1 / 0.45F, 0.099296827F, 4.5F, 0.081242858F};
+
+/// Linear light of AP1 primaries.
+class AcesCg final : public ColourSpace {
+ public:
+  AcesCg() : ColourSpace("ACEScg") {}
+  void to_linear(float*, std::size_t, int) const override {}
+  void from_linear(float*, std::size_t, int) const override {}
+  const float* to_rec709() const override {
+    // Its white is D60, adapted to D65 (Bradford).
+    static constexpr float kMatrix[] = {1.70505F,  -0.62179F, -0.08326F, -0.13026F, 1.14080F,
+                                        -0.01055F, -0.02400F, -0.12897F, 1.15297F};
+    return kMatrix;
+  }
+};
 
 /// A colour space of an OpenColorIO configuration.
 class ConfiguredSpace final : public ColourSpace {
@@ -128,6 +143,18 @@ std::string tag_of(const Image& image) {
   return std::string(image.source->spec.get_string_attribute("oiio:ColorSpace"));
 }
 
+/// Whether the file names the primaries of ACEScg: its name does not survive an EXR.
+bool has_ap1_primaries(const Image& image) {
+  if (!image.source) return false;
+  constexpr float kAp1[] = {0.713F, 0.293F, 0.165F, 0.830F, 0.128F, 0.044F, 0.32168F, 0.33767F};
+  const auto* const found =
+      image.source->spec.find_attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8));
+  if (found == nullptr) return false;
+  const auto* const values = static_cast<const float*>(found->data());
+  return std::equal(std::begin(kAp1), std::end(kAp1), values,
+                    [](float a, float b) { return std::abs(a - b) < 1e-3F; });
+}
+
 bool is_integer(const Image& image) {
   if (!image.source) return false;
   const std::vector<SampleType>& types = image.source->types;
@@ -159,6 +186,7 @@ std::shared_ptr<const ColourSpace> find_colour_space(std::string_view name) {
     return std::make_shared<CurveSpace<Power>>("sRGB", kSrgb);
   if (is_one_of(word, {"rec709", "bt709"}))
     return std::make_shared<CurveSpace<Power>>("Rec709", kRec709);
+  if (word == "acescg") return std::make_shared<AcesCg>();
   for (const std::string_view prefix : {"gammacorrected", "gamma"}) {
     if (word.rfind(prefix, 0) != 0) continue;
     char* end = nullptr;
@@ -169,7 +197,7 @@ std::shared_ptr<const ColourSpace> find_colour_space(std::string_view name) {
     return std::make_shared<CurveSpace<Power>>("Gamma" + number, Power{float(gamma), 0, 1, 0});
   }
   throw InputError("unknown colour space '" + std::string(name) + "': there are sRGB, Rec709, " +
-                   "GammaX, linear and raw" +
+                   "GammaX, ACEScg, linear and raw" +
                    (has_configuration() ? ", and those of $OCIO" : "; $OCIO may name more"));
 }
 
@@ -185,6 +213,7 @@ ColourSpaceChoice choose_colour_space(const Image& image, const ColourSpaceReque
   if (image.channels <= 2 && !is_colour)
     return {nullptr, "data", count_text(std::uint64_t(image.channels), "channel", "channels"),
             false};
+  if (has_ap1_primaries(image)) return named("ACEScg", "the file's chromaticities");
   const std::string tag = tag_of(image);
   if (!tag.empty() && colours > 0) {
     try {

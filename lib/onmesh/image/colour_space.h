@@ -26,6 +26,10 @@ class ColourSpace {
   /// Whether each channel is converted by itself: then codes of few levels can have a table.
   virtual bool is_per_channel() const { return true; }
 
+  /// The matrix from the space's primaries to those of Rec. 709, 3 x 3 row by row; null if they are
+  /// these, or not known. Means need none; how colours look does.
+  virtual const float* to_rec709() const { return nullptr; }
+
   /// As find_colour_space() knows it.
   const std::string& name() const { return name_; }
 
@@ -38,10 +42,10 @@ class ColourSpace {
 };
 
 /// The colour space of a name, in any case of letters: "sRGB" (IEC 61966-2-1), "Rec709" (ITU-R
-/// BT.709), "GammaX" for a power of X, such as "Gamma2.2". If $OCIO names a configuration, its
-/// colour spaces and roles come first.
-/// \return null for "linear", "raw" and "data", whose codes are averaged as they are
-/// \throw InputError if it is unknown
+/// BT.709), "GammaX" for a power of X, such as "Gamma2.2", "ACEScg" for linear light of AP1
+/// primaries (Academy S-2014-004). If $OCIO names a configuration, its colour spaces and roles come
+/// first. \return null for "linear", "raw" and "data", whose codes are averaged as they are \throw
+/// InputError if it is unknown
 std::shared_ptr<const ColourSpace> find_colour_space(std::string_view name);
 
 /// Where a choice of colour space came from.
@@ -67,9 +71,9 @@ struct ColourSpaceRequest {
 };
 
 /// The colour space of an image: by the role; else the name given; else the glTF slot; else one or
-/// two channels are data; else the file's tag; else integers are sRGB and floats linear. The role
-/// `colour` leaves out what says data.
-/// \throw InputError as find_colour_space()
+/// two channels are data; else the file's tag, and the primaries that an EXR names; else integers
+/// are sRGB and floats linear. The role `colour` leaves out what says data. \throw InputError as
+/// find_colour_space()
 ColourSpaceChoice choose_colour_space(const Image& image, const ColourSpaceRequest& request);
 
 /// How many levels above 0 the codes of the image's file have: 255 or 65535; 0 = other than that.

@@ -23,12 +23,12 @@ constexpr double kSameWay = 0.1;
 // point: there n faces and m node faces that wind around it overlap n m times.
 constexpr std::size_t kMostPiecesPerFace = 32;
 // 20 MB, so that what is small is left alone.
-constexpr std::size_t kFewPieces = 1 << 18;
+constexpr std::size_t kFreePieces = 1 << 18;
 
 std::size_t most_pieces_of(const IntrinsicTriangulation& triangulation) {
   const std::size_t faces =
       std::size_t{triangulation.input().edges().face_count()} + triangulation.edges().face_count();
-  return std::max(kFewPieces, kMostPiecesPerFace * faces);
+  return std::max(kFreePieces, kMostPiecesPerFace * faces);
 }
 
 using Corners = std::array<Vec2, 3>;
