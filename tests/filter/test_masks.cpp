@@ -182,6 +182,35 @@ TEST_CASE("alpha spreads with the weights of the filter", "[masks]") {
                     Catch::Contains("there is no alpha: the texture has 3 channels"));
 }
 
+TEST_CASE("where alpha alone changes straight codes stay, those multiplied with it do not",
+          "[masks]") {
+  // One colour, so that none changes; alpha does.
+  Image image = make_image(kSize, kSize, 4);
+  image.alpha_channel = 3;
+  for (Index t = 0; t < kSize * kSize; ++t) {
+    const float texel[] = {0.3F, 0.6F, 0.9F, t % kSize < kSize / 2 ? 1.F : 0.5F};
+    std::copy_n(texel, 4, image.texel(t));
+  }
+  Image premultiplied = image;
+  for (Index t = 0; t < kSize * kSize; ++t)
+    for (int c = 0; c < 3; ++c) premultiplied.texel(t)[c] *= premultiplied.texel(t)[3];
+  FilterOptions options = some_options();
+  options.filter_alpha = true;
+  const auto filtered = [&](const Image& of, bool is_premultiplied) {
+    SurfaceTextures textures = one_texture(of, options);
+    textures.tiles[0].premultiplied = is_premultiplied;
+    textures.tiles[0].space = find_colour_space("sRGB");
+    return filter(make_plane(1, 1), textures, options).front();
+  };
+  const Image a = filtered(image, false), b = filtered(premultiplied, true);
+  for (Index t = 0; t < kSize * kSize; ++t) {
+    for (int c = 0; c < 3; ++c) {
+      REQUIRE(a.texel(t)[c] == Approx(image.texel(t)[c]).margin(1e-6));
+      REQUIRE(b.texel(t)[c] == Approx(image.texel(t)[c] * b.texel(t)[3]).margin(1e-5));
+    }
+  }
+}
+
 TEST_CASE("a surface whose texels are all left out is refused", "[masks]") {
   const Image image = make_texture(16, 16, Pattern::checker, 0.2, 3, 3);
   const Image nothing = make_image(16, 16, 1);

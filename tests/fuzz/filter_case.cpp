@@ -150,7 +150,9 @@ void choose_values(Input& input, FilterOptions& options, SurfaceTextures& textur
   if (bit(0)) options.range_space = input.pick(kSpaces);
   if (bit(1)) options.strength = double(input.byte()) / 255;
   if (bit(2)) options.filter_alpha = true;
-  if (bit(3)) textures.tiles[0].space = find_colour_space("sRGB");
+  // All alike, so that codes bound the results: light from one into another has other codes there.
+  const auto space = bit(3) ? find_colour_space("sRGB") : nullptr;
+  for (TextureTile& tile : textures.tiles) tile.space = space;
   masks.reserve(2);  // textures refer to them
   for (const int which : {4, 5}) {
     if (!bit(which)) continue;

@@ -23,12 +23,12 @@ void parallel_over(std::size_t size, Body&& body) {
 /// all threads.
 template <class Body>
 void over_blocks(std::size_t size, const Body& body) {
-  constexpr std::size_t kBlock = 1024;
-  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, size, kBlock),
+  constexpr std::size_t kAtOnce = 1024;
+  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, size, kAtOnce),
                             [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
                               for (std::size_t begin = range.begin(); begin < range.end();
-                                   begin += kBlock)
-                                body(begin, std::min(begin + kBlock, range.end()));
+                                   begin += kAtOnce)
+                                body(begin, std::min(begin + kAtOnce, range.end()));
                             });
 }
 

@@ -100,7 +100,7 @@ void ResultValues::add_detail(const std::vector<Index>& texels, const TextureTil
   if (tile.space) tile.space->to_linear(after.data(), texels.size(), int(channels.size()));
   const float* next = after.data();
   for (const Index t : texels) {
-    const bool stays = is_unchanged(t);
+    const bool stays = has_own_colour(t);
     for (const int c : channels) {
       const float value = *next++;
       if (!stays && std::isfinite(value)) values_[t][c] = value;
@@ -108,15 +108,14 @@ void ResultValues::add_detail(const std::vector<Index>& texels, const TextureTil
   }
 }
 
-/// A covered texel with the value that it had.
-bool ResultValues::is_unchanged(Index texel) const {
+/// A covered texel with the colour that it had.
+bool ResultValues::has_own_colour(Index texel) const {
   if (working_.map().coverage[texel] != Coverage::covered) return false;
   const float *before = working_.straight().values_of(texel), *const after = values_[texel];
-  const int alpha = codes_.alpha_channel();
-  const auto is_same = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
-  return (!working_.filters_alpha() || is_same(codes_[texel][alpha], after[alpha])) &&
-         std::all_of(working_.channels().begin(), working_.channels().end(),
-                     [&](int c) { return is_same(*before++, after[c]); });
+  return std::all_of(working_.channels().begin(), working_.channels().end(), [&](int c) {
+    const float was = *before++;
+    return was == after[c] || (std::isnan(was) && std::isnan(after[c]));
+  });
 }
 
 /// What the texel's straight colour is multiplied with in the file.
@@ -139,8 +138,10 @@ void ResultValues::encode_some(const std::vector<Index>& texels, const TextureTi
   to_codes(tile, channels.size(), encoded);
   const float* next = encoded.data();
   for (const Index t : texels) {
-    const bool stays = is_unchanged(t);
     const float factor = alpha_factor(t, tile);
+    const bool was_divided = tile.premultiplied && codes_[t][codes_.alpha_channel()] > 0;
+    const float own_factor = was_divided ? codes_[t][codes_.alpha_channel()] : 1;
+    const bool stays = factor == own_factor && has_own_colour(t);
     for (const int c : channels) {
       const float code = *next++ * factor;
       values_[t][c] = stays ? codes_[t][c] : code;

@@ -36,7 +36,7 @@ class ResultValues {
                   const std::vector<float>& mask) const;
   void add_detail(const std::vector<Index>& texels, const TextureTile& tile, double gain) const;
   void encode_some(const std::vector<Index>& texels, const TextureTile& tile) const;
-  bool is_unchanged(Index texel) const;
+  bool has_own_colour(Index texel) const;
   float alpha_factor(Index texel, const TextureTile& tile) const;
 
   const WorkingValues& working_;
