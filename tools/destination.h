@@ -4,11 +4,16 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arguments.h"
+#include "filtered_channels.h"
+#include "interruption.h"
+#include "messages.h"
 #include "onmesh/base/atomic_file.h"
 #include "output_names.h"
+#include "stopwatch.h"
 #include "surface_inputs.h"
 
 namespace onmesh::tools {
@@ -39,6 +44,31 @@ class Destination {
   OutputNames results_, details_;
   std::optional<AtomicFolder> folder_, details_folder_;
 };
+
+/// Let work(progress) make one image per texture of what is filtered, and write them. Where no
+/// texel of a glTF file can change, it is written as it is. The inputs' warnings and stages, the
+/// report's own and those of writing are told together in the end: in inputs.warnings and
+/// report.stages.
+template <class Report, class Work>
+void make_and_write(SurfaceInputs& inputs, Destination& to, bool quiet, Stopwatch& watch,
+                    Report& report, const Work& work) {
+  std::vector<Image> results;
+  if (std::string why = why_nothing(inputs, to.is_gltf()); !why.empty()) {
+    inputs.warnings.push_back(std::move(why));
+    results = inputs.images;
+  } else {
+    ProgressBar bar(quiet);
+    results = working_on(inputs, [&] { return work(bar.callback()); });
+    put_together(inputs.filtered, inputs.images, results);
+  }
+  watch.lap();
+  check_interrupted();
+  add_warnings(report.warnings, inputs.warnings);
+  to.write(results, inputs);
+  report.stages.insert(report.stages.begin(), inputs.stages.begin(), inputs.stages.end());
+  report.stages.push_back(stage("write texture", watch));
+  if (!quiet) warn(inputs.warnings);
+}
 
 /// The beginning of a command's JSON report: options, mesh, textures with what was assumed of them.
 nlohmann::json start_report(const char* command, const Arguments& arguments,

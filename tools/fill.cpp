@@ -9,8 +9,6 @@
 #include "destination.h"
 #include "filter_report.h"
 #include "format.h"
-#include "interruption.h"
-#include "messages.h"
 #include "onmesh/mesh_io/write_gltf.h"
 #include "report.h"
 #include "shared_options.h"
@@ -87,27 +85,10 @@ int run_fill(const Arguments& arguments) {
   Destination to(arguments, output, inputs);
   json out = start_report("fill", arguments, inputs, to);
   FillReport report;
-  std::vector<Image> results;
-  if (const std::string why = why_nothing(inputs, to.is_gltf()); !why.empty()) {
-    inputs.warnings.push_back(why);
-    results = inputs.images;
-  } else {
-    ProgressBar bar(quiet);
-    results = working_on(inputs, [&] {
-      return fill(inputs.mesh, inputs.textures(), options, &report, bar.callback());
-    });
-    put_together(inputs.filtered, inputs.images, results);
-  }
-  watch.lap();
-  check_interrupted();
-  add_warnings(report.warnings, inputs.warnings);
-  to.write(results, inputs);
-  report.stages.insert(report.stages.begin(), inputs.stages.begin(), inputs.stages.end());
-  report.stages.push_back(stage("write texture", watch));
-  if (!quiet) {
-    warn(inputs.warnings);
-    print_summary(report, watch.total());
-  }
+  make_and_write(inputs, to, quiet, watch, report, [&](const Progress& progress) {
+    return fill(inputs.mesh, inputs.textures(), options, &report, progress);
+  });
+  if (!quiet) print_summary(report, watch.total());
   if (arguments.flag("json")) {
     out["counts"] = {{"texels", report.texels},
                      {"missing", report.missing},

@@ -10,7 +10,6 @@
 #include "destination.h"
 #include "filter_report.h"
 #include "flags.h"
-#include "interruption.h"
 #include "messages.h"
 #include "report.h"
 #include "shared_options.h"
@@ -185,27 +184,10 @@ void filter_and_write(const Arguments& arguments, const FilterOptions& options,
                       SurfaceInputs& inputs, Destination& to, json out, Stopwatch& watch) {
   const bool quiet = arguments.flag("quiet");
   FilterReport report;
-  std::vector<Image> results;
-  if (const std::string why = why_nothing(inputs, to.is_gltf()); !why.empty()) {
-    inputs.warnings.push_back(why);
-    results = inputs.images;
-  } else {
-    ProgressBar bar(quiet);
-    results = working_on(inputs, [&] {
-      return filter(inputs.mesh, inputs.textures(), options, &report, bar.callback());
-    });
-    put_together(inputs.filtered, inputs.images, results);
-  }
-  watch.lap();
-  check_interrupted();
-  add_warnings(report.warnings, inputs.warnings);
-  to.write(results, inputs);
-  report.stages.insert(report.stages.begin(), inputs.stages.begin(), inputs.stages.end());
-  report.stages.push_back(stage("write texture", watch));
-  if (!quiet) {
-    warn(inputs.warnings);
-    if (report.texels > 0) print_summary(report, watch.total(), std::cerr);
-  }
+  make_and_write(inputs, to, quiet, watch, report, [&](const Progress& progress) {
+    return filter(inputs.mesh, inputs.textures(), options, &report, progress);
+  });
+  if (!quiet && report.texels > 0) print_summary(report, watch.total(), std::cerr);
   if (arguments.flag("json")) {
     out.update(to_json(report));
     out["warnings"] = inputs.warnings;

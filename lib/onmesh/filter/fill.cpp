@@ -30,6 +30,11 @@ FilterOptions filter_options(const FillOptions& options) {
   return result;
 }
 
+/// Alpha has a value where it is finite, and not 0 if that says that there is none.
+bool has_alpha(float alpha, bool clear_is_missing) {
+  return std::isfinite(alpha) && !(clear_is_missing && alpha == 0);
+}
+
 /// Per texel 0 if it has no value by mask or alpha, else more; empty if neither says so.
 std::vector<float> value_weights(const PreparedMesh& prepared, const SurfaceTextures& textures,
                                  bool clear_is_missing) {
@@ -40,8 +45,7 @@ std::vector<float> value_weights(const PreparedMesh& prepared, const SurfaceText
   const int alpha = codes.alpha_channel();
   if (alpha < 0) return weights;
   for (Index t = 0; t < codes.size(); ++t) {
-    const float a = codes[t][alpha];
-    if (std::isfinite(a) && !(clear_is_missing && a == 0)) continue;
+    if (has_alpha(codes[t][alpha], clear_is_missing)) continue;
     if (weights.empty()) weights.resize(codes.size(), 1);
     weights[t] = 0;
   }
@@ -70,11 +74,6 @@ Holes find_holes(const WorkingValues& working, bool clear_is_missing) {
     if (is_missing || is_clear) holes.unknown.push_back(t);
   }
   return holes;
-}
-
-/// Alpha has a value where it is finite, and not 0 if that says that there is none.
-bool has_alpha(float alpha, bool clear_is_missing) {
-  return std::isfinite(alpha) && !(clear_is_missing && alpha == 0);
 }
 
 /// Fill the holes, and alpha where it has no value.
