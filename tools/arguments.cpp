@@ -3,7 +3,9 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <string_view>
+#include <typeinfo>
 
 namespace onmesh::tools {
 namespace {
@@ -39,6 +41,23 @@ std::string compact(double value) {
 
 bool Arguments::given(const std::string& name) const {
   return has(name) && !values_[name].defaulted();
+}
+
+void Arguments::set_default(const std::string& name, const std::string& value) {
+  if (given(name)) return;
+  auto& values =
+      static_cast<std::map<std::string, boost::program_options::variable_value>&>(values_);
+  const bool is_list = has(name) && values[name].value().type() == typeid(std::vector<std::string>);
+  if (name == "guide" || is_list) {
+    std::vector<std::string> list;
+    if (has(name)) list = values[name].as<std::vector<std::string>>();
+    list.push_back(value);
+    values[name] = {list, true};
+  } else if (has(name) && values[name].value().type() == typeid(bool)) {
+    values[name] = {value == "true", true};
+  } else {
+    values[name] = {value, true};
+  }
 }
 
 std::string Arguments::text(const std::string& name) const {
@@ -125,6 +144,10 @@ std::vector<double> Arguments::numbers(const std::string& name, std::size_t coun
 }
 
 Length Arguments::length(const std::string& name) const { return parse_length(name, text(name)); }
+
+RangeWidth Arguments::width(const std::string& name) const {
+  return parse_range_width(name, text(name));
+}
 
 std::optional<Length> Arguments::optional_length(const std::string& name) const {
   return has(name) ? std::optional(length(name)) : std::nullopt;

@@ -11,6 +11,7 @@
 #include "flags.h"
 #include "onmesh/base/error.h"
 #include "onmesh/filter/length.h"
+#include "onmesh/filter/range_width.h"
 
 namespace onmesh::tools {
 
@@ -28,6 +29,10 @@ class Arguments {
   bool given(const std::string& name) const;
   /// Options with their values in force: text, texts or flags.
   const boost::program_options::variables_map& values() const { return values_; }
+
+  /// Give an option another default, as --preset does.
+  /// \param value text, or one of several texts
+  void set_default(const std::string& name, const std::string& value);
 
   /// \throw UsageError if the option was not given and has no default, or is empty
   std::string text(const std::string& name) const;
@@ -52,6 +57,8 @@ class Arguments {
   /// A positive length: "0.2", "8tx" or "1%".
   Length length(const std::string& name) const;
   std::optional<Length> optional_length(const std::string& name) const;
+  /// The width of a range weight: "0.1", "25/255" or "2n".
+  RangeWidth width(const std::string& name) const;
 
   /// The enumerator whose name was given.
   template <typename Enum>

@@ -9,20 +9,46 @@
 
 namespace onmesh::tools {
 
-NamedTexture split_role(const std::string& text) {
-  const std::size_t at = text.rfind('@');
+namespace {
+
+const std::pair<const char*, Role> kRoles[] = {
+    {"data", Role::data},           {"colour", Role::colour},
+    {"color", Role::colour},        {"normal-gl", Role::normal_gl},
+    {"normal-dx", Role::normal_dx}, {"object-normal", Role::object_normal}};
+
+bool is_file(const std::string& name) {
   std::error_code none;
-  if (at == std::string::npos || at == 0 || std::filesystem::exists(text, none))
-    return {text, Role::unknown};
+  return std::filesystem::exists(name, none);
+}
+
+}  // namespace
+
+NamedTexture split_role(const std::string& text, const char* option) {
+  const std::size_t at = text.rfind('@');
+  if (at == std::string::npos || at == 0 || is_file(text)) return {text, Role::unknown};
   const std::string role = text.substr(at + 1);
   const bool is_word = !role.empty() && std::all_of(role.begin(), role.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || c == '-';
   });
   if (!is_word) return {text, Role::unknown};
-  if (role == "data") return {text.substr(0, at), Role::data};
-  if (role == "colour" || role == "color") return {text.substr(0, at), Role::colour};
-  throw UsageError("--texture: " + text + ": unknown role '@" + role +
-                   "'; there are @data (numbers, averaged as they are) and @colour");
+  for (const auto& [name, known] : kRoles)
+    if (role == name) return {text.substr(0, at), known};
+  throw UsageError(dashed(option) + ": " + text + ": unknown role '@" + role +
+                   "'; there are @data (numbers, averaged as they are), @colour, @normal-gl, "
+                   "@normal-dx and @object-normal");
+}
+
+NamedTexture split_texture(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (is_file(text) || equals == std::string::npos || equals == 0 || text.find('/') < equals)
+    return split_role(text);
+  NamedTexture texture = split_role(text.substr(equals + 1));
+  texture.map = text.substr(0, equals);
+  return texture;
+}
+
+bool is_normal(Role role) {
+  return role == Role::normal_gl || role == Role::normal_dx || role == Role::object_normal;
 }
 
 void add_colour_space_options(boost::program_options::options_description& options) {

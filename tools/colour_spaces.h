@@ -14,15 +14,22 @@ namespace onmesh::tools {
 
 using Role = ColourSpaceRequest::Role;
 
-/// A texture with what stands behind its name.
+/// A texture with what stands around its name.
 struct NamedTexture {
   std::string name;
   Role role = Role::unknown;
+  std::string map = {};  ///< empty = none is named
 };
 
-/// Splits map.png@data. A file that is called so as a whole is one.
+/// Splits file.png@data. A file that is called so as a whole is one.
+/// \param option whose value it is, for messages
 /// \throw UsageError for an unknown role, naming those that there are
-NamedTexture split_role(const std::string& text);
+NamedTexture split_role(const std::string& text, const char* option = "texture");
+/// Splits [map=]file.png[@data] likewise.
+NamedTexture split_texture(const std::string& text);
+
+/// Whether a role is that of normal maps, whose codes have no mean.
+bool is_normal(Role role);
 
 /// Adds --colorspace and --raw.
 void add_colour_space_options(boost::program_options::options_description& options);

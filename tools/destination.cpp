@@ -128,6 +128,7 @@ json start_report(const char* command, const Arguments& arguments, const Surface
   for (std::size_t i = 0; i < inputs.images.size(); ++i) {
     json one = texture_json(inputs, i);
     const SetTexture& file = inputs.set.textures[i];
+    one["map"] = text_or_null(file.map);
     one["udim"] = file.udim > 0 ? json(file.udim) : json();
     one["material"] = text_or_null(file.material);
     one["output"] = text_or_null(to.path_of(i));

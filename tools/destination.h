@@ -45,7 +45,8 @@ class Destination {
   std::optional<AtomicFolder> folder_, details_folder_;
 };
 
-/// Let work(progress) make one image per texture of what is filtered, and write them. Where no
+/// Let work(progress) make the images of what is filtered, per map that is and its textures, and
+/// write them. Where no
 /// texel of a glTF file can change, it is written as it is. The inputs' warnings and stages, the
 /// report's own and those of writing are told together in the end: in inputs.warnings and
 /// report.stages.
@@ -58,8 +59,7 @@ void make_and_write(SurfaceInputs& inputs, Destination& to, bool quiet, Stopwatc
     results = inputs.images;
   } else {
     ProgressBar bar(quiet);
-    results = working_on(inputs, [&] { return work(bar.callback()); });
-    put_together(inputs.filtered, inputs.images, results);
+    results = inputs.whole_images(working_on(inputs, [&] { return work(bar.callback()); }));
   }
   watch.lap();
   check_interrupted();

@@ -67,6 +67,16 @@ FillOptions fill_options(const Arguments& arguments) {
   return options;
 }
 
+/// Of several maps.
+void add(const FillReport& more, FillReport& report) {
+  report.texels += more.texels;
+  report.missing += more.missing;
+  report.left += more.left;
+  report.gutter += more.gutter;
+  report.stages.insert(report.stages.end(), more.stages.begin(), more.stages.end());
+  report.warnings.insert(report.warnings.end(), more.warnings.begin(), more.warnings.end());
+}
+
 void print_summary(const FillReport& report, double seconds) {
   std::cerr << format_count(report.missing - report.left) << " of " << format_count(report.texels)
             << " texels on the surface filled in " << format_seconds(seconds) << '\n';
@@ -86,7 +96,15 @@ int run_fill(const Arguments& arguments) {
   json out = start_report("fill", arguments, inputs, to);
   FillReport report;
   make_and_write(inputs, to, quiet, watch, report, [&](const Progress& progress) {
-    return fill(inputs.mesh, inputs.textures(), options, &report, progress);
+    std::vector<std::vector<Image>> results;
+    for (std::size_t m = 0; m < inputs.maps.size(); ++m) {
+      if (!inputs.maps[m].is_filtered) continue;
+      FillReport own;
+      results.push_back(
+          fill(inputs.mesh_of(inputs.maps[m]), inputs.textures(m), options, &own, progress));
+      add(own, report);
+    }
+    return results;
   });
   if (!quiet) print_summary(report, watch.total());
   if (arguments.flag("json")) {

@@ -1,5 +1,4 @@
-// onmesh filter: the main job. Reads mesh and texture, filters, writes the texture.
-#include "onmesh/filter/filter.h"
+// onmesh filter: the main job. Reads mesh and textures, filters, writes the textures.
 
 #include <cstdint>
 #include <iostream>
@@ -10,7 +9,10 @@
 #include "destination.h"
 #include "filter_report.h"
 #include "flags.h"
+#include "guides.h"
 #include "messages.h"
+#include "onmesh/filter/map_set.h"
+#include "presets.h"
 #include "report.h"
 #include "shared_options.h"
 #include "stopwatch.h"
@@ -38,7 +40,10 @@ Command filter_command() {
       "  onmesh filter figure.obj -o smooth/ --material skin\n"
       "  onmesh filter figure.obj -t 'skin.<UDIM>.png' -o 'smooth.<UDIM>.png' --only 1001,1002\n"
       "  onmesh filter scene.glb -o smooth.glb\n"
-      "  onmesh filter scene.glb --uv-set 1 -t lightmap.exr -o lightmap_smooth.exr\n"
+      "  onmesh filter scene.glb --uv-set 1 -t lightmap.exr -o clean.exr --preset lightmap\n"
+      "  onmesh filter model.obj -t ao.png -o ao_clean.png --preset ao\n"
+      "  onmesh filter model.obj -t albedo=a.png -t rough=r.png@data -o 'out/{map}.{ext}' \\\n"
+      "    --guide albedo:0.1\n"
       "  onmesh filter model.obj -o smooth.png --dry-run\n";
   auto add = command.options.add_options();
   add("mesh", text());
@@ -61,8 +66,25 @@ Command filter_command() {
   add("kind", text("bilateral"), "bilateral (keeps edges) or gaussian (blurs)");
   add("sigma-spatial", text("4tx"), "length: width of the filter on the surface");
   add("sigma-range", text("0.1"),
-      "bilateral: width of the filter in colour differences; values run from 0 to 1 (or 25/255)");
+      "bilateral: width of the filter in colour differences; values run from 0 to 1 (or 25/255); "
+      "2n = twice the noise");
   add_range_space_option(command.options);
+  add("guide", texts(),
+      "NAME[@ROLE][@uvN][:blur=LENGTH]:S, may be given several times: compare this instead of "
+      "values, S as --sigma-range. NAME is self (values, blurred perhaps), surface-normal, "
+      "surface-position (S is a length), a map given by -t MAP=FILE, or an image; none = blur. "
+      "Roles of images: @data, @colour, @normal-gl, @normal-dx, @object-normal");
+  add("despike", text(),
+      "K: take down values K times as bright as (numbers: K times as far off as) four in five of "
+      "those within three texels, before all else");
+  add("iterations", text("1"), "how often: each time of the last result");
+  add("guides-from", text("input"),
+      "input or result: whether iterations compare what was read or the last result");
+  std::string names;
+  for (const Preset& preset : presets())
+    names += std::string(names.empty() ? "" : "; ") + preset.name + " (" + preset.purpose +
+             "): " + text_of(preset);
+  add("preset", text(), ("options under one name; those given explicitly win. " + names).c_str());
   add("radius", text(),
       "length: how far samples count (default: 2.5 sigma bilateral, 3 sigma gaussian)");
   add("distance", text("auto"), "how distances are computed: auto, unfold, heat, cloud or exact");
@@ -101,10 +123,19 @@ namespace {
 using nlohmann::json;
 
 void refuse_ignored(const Arguments& arguments, const FilterOptions& options) {
-  for (const char* name : {"sigma-range", "range-space"}) {
+  for (const char* name : {"sigma-range", "range-space", "guide"}) {
     if (options.kind == FilterKind::gaussian && arguments.given(name))
       throw UsageError(dashed(name) + ": only with --kind bilateral");
   }
+  if (arguments.has("guide")) {
+    if (arguments.given("sigma-range"))
+      throw UsageError("--sigma-range: --guide has widths of its own (self:S for own values)");
+    if (arguments.given("guide") && arguments.given("kind") && arguments.text("kind") == "gaussian")
+      throw UsageError("--guide: only with --kind bilateral");
+    for (const std::string& guide : arguments.texts("guide")) parse_guide(guide);
+  }
+  if (arguments.given("guides-from") && arguments.text("iterations") == "1")
+    throw UsageError("--guides-from: only with --iterations of 2 or more");
   if (options.method == FilterMethod::direct && arguments.given("tolerance")) {
     throw UsageError("--tolerance: not with --method direct");
   }
@@ -134,7 +165,11 @@ FilterOptions filter_options(const Arguments& arguments) {
                                                              {"nodes", FilterMethod::nodes}});
   refuse_ignored(arguments, options);
   options.sigma_spatial = arguments.length("sigma-spatial");
-  options.sigma_range = arguments.number("sigma-range");
+  options.sigma_range = arguments.width("sigma-range");
+  if (arguments.has("despike")) options.despike = arguments.number("despike", 1, 1e6);
+  options.iterations = int(arguments.integer("iterations", 1, 100));
+  options.guides_from_result =
+      arguments.choice<bool>("guides-from", {{"input", false}, {"result", true}});
   options.range_space = range_space_of(arguments);
   if (arguments.has("tolerance")) options.tolerance = arguments.number("tolerance");
   options.radius = arguments.optional_length("radius");
@@ -154,6 +189,32 @@ FilterOptions filter_options(const Arguments& arguments) {
   return options;
 }
 
+/// The maps as the library takes them.
+std::vector<SurfaceMap> library_maps(const SurfaceInputs& inputs) {
+  std::vector<SurfaceMap> maps;
+  for (std::size_t m = 0; m < inputs.maps.size(); ++m) {
+    const InputMap& map = inputs.maps[m];
+    SurfaceMap& out = maps.emplace_back();
+    out.name = map.name;
+    out.textures = inputs.textures(m);
+    out.mesh = map.mesh.get();
+    out.is_filtered = map.is_filtered;
+    if (!map.is_filtered)
+      out.meaning =
+          map.slot == TextureSlot::normal ? Guide::Meaning::normal_gl : meaning_of(map.role);
+  }
+  return maps;
+}
+
+/// Guides refer to what was read.
+FilterOptions with_guides(FilterOptions options, const SurfaceInputs& inputs) {
+  for (const InputGuide& guide : inputs.guides) {
+    if (guide.is_off) options.kind = FilterKind::gaussian;
+    if (!guide.is_off) options.guides.push_back(guide.guide);
+  }
+  return options;
+}
+
 void tell_plan(const Arguments& arguments, const FilterOptions& options, SurfaceInputs& inputs,
                const Destination& to, json out) {
   if (const std::string why = why_nothing(inputs, to.is_gltf()); !why.empty()) {
@@ -164,8 +225,9 @@ void tell_plan(const Arguments& arguments, const FilterOptions& options, Surface
     if (arguments.flag("json")) print_report(std::move(out));
     return;
   }
-  const FilterPlan plan =
-      working_on(inputs, [&] { return plan_filter(inputs.mesh, inputs.textures(), options); });
+  const FilterPlan plan = working_on(inputs, [&] {
+    return plan_maps(inputs.mesh, library_maps(inputs), with_guides(options, inputs));
+  });
   add_warnings(plan.warnings, inputs.warnings);
   if (plan.memory_bytes > plan.memory_limit) {
     inputs.warnings.push_back("the run will be refused: it takes more memory than may be used");
@@ -185,7 +247,8 @@ void filter_and_write(const Arguments& arguments, const FilterOptions& options,
   const bool quiet = arguments.flag("quiet");
   FilterReport report;
   make_and_write(inputs, to, quiet, watch, report, [&](const Progress& progress) {
-    return filter(inputs.mesh, inputs.textures(), options, &report, progress);
+    return filter_maps(inputs.mesh, library_maps(inputs), with_guides(options, inputs), &report,
+                       progress);
   });
   if (!quiet && report.texels > 0) print_summary(report, watch.total(), std::cerr);
   if (arguments.flag("json")) {
@@ -198,7 +261,9 @@ void filter_and_write(const Arguments& arguments, const FilterOptions& options,
 
 }  // namespace
 
-int run_filter(const Arguments& arguments) {
+int run_filter(const Arguments& given) {
+  Arguments arguments = given;
+  const Preset* const preset = apply_preset(arguments);
   arguments.argument("mesh");
   const bool dry_run = arguments.flag("dry-run");
   const std::string output = dry_run && !arguments.has("output") ? "" : arguments.text("output");
@@ -209,6 +274,8 @@ int run_filter(const Arguments& arguments) {
   Destination to(arguments, output, inputs);
   json out = start_report("filter", arguments, inputs, to);
   out["dry_run"] = dry_run;
+  if (preset != nullptr && dry_run && !arguments.flag("json"))
+    std::cout << "preset        " << preset->name << ": " << text_of(*preset) << '\n';
   if (dry_run) {
     tell_plan(arguments, options, inputs, to, std::move(out));
     return 0;

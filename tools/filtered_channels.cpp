@@ -100,13 +100,4 @@ FilteredChannels choose_channels(const ChannelRequest& request, const std::vecto
   return filtered;
 }
 
-void put_together(const FilteredChannels& filtered, const std::vector<Image>& images,
-                  std::vector<Image>& results) {
-  for (std::size_t i = 0; i < filtered.parts.size(); ++i) {
-    Image whole = images[i];
-    put_channels(results[i], filtered.channels[i], whole);
-    results[i] = std::move(whole);
-  }
-}
-
 }  // namespace onmesh::tools

@@ -33,9 +33,4 @@ FilteredChannels choose_channels(const ChannelRequest& request, const std::vecto
                                  const std::vector<std::string>& names,
                                  std::vector<std::string>& warnings);
 
-/// The results as whole textures: channels that were left out are as they were.
-/// \param results of the parts, if there are any
-void put_together(const FilteredChannels& filtered, const std::vector<Image>& images,
-                  std::vector<Image>& results);
-
 }  // namespace onmesh::tools

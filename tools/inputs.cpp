@@ -32,13 +32,37 @@ TriangleMesh weld_and_join(const TriangleMesh& mesh, const std::optional<Length>
   return join(onmesh::weld(mesh), weld, report);
 }
 
-TriangleMesh read_mesh_file(const std::string& path, const Arguments& arguments,
-                            ReadReport& report) {
-  TriangleMesh mesh = read_mesh(path, &report, read_options_of(arguments));
+namespace {
+
+TriangleMesh read_with(const std::string& path, const Arguments& arguments, ReadReport& report,
+                       const ReadOptions& options) {
+  TriangleMesh mesh = read_mesh(path, &report, options);
   if (arguments.given("wrap")) {
     for (Material& material : mesh.materials) material.wrap.reset();
   }
   return mesh;
+}
+
+}  // namespace
+
+TriangleMesh read_mesh_file(const std::string& path, const Arguments& arguments,
+                            ReadReport& report) {
+  return read_with(path, arguments, report, read_options_of(arguments));
+}
+
+TriangleMesh read_mesh_file(const std::string& path, const Arguments& arguments, ReadReport& report,
+                            TextureSlot slot) {
+  ReadOptions options = read_options_of(arguments);
+  options.slot = slot;
+  return read_with(path, arguments, report, options);
+}
+
+TriangleMesh read_mesh_with_uvs(const std::string& path, const Arguments& arguments,
+                                std::uint64_t uv_set) {
+  ReadReport unused;
+  ReadOptions options = read_options_of(arguments);
+  options.uv_set = uv_set;
+  return read_with(path, arguments, unused, options);
 }
 
 InputMesh read_input_mesh(const std::string& path, const Arguments& arguments) {

@@ -32,6 +32,12 @@ struct InputMesh {
 /// \throw FileError, InputError as read_mesh()
 TriangleMesh read_mesh_file(const std::string& path, const Arguments& arguments,
                             ReadReport& report);
+/// The same with the textures, and their UVs, of another slot.
+TriangleMesh read_mesh_file(const std::string& path, const Arguments& arguments, ReadReport& report,
+                            TextureSlot slot);
+/// The same with other UVs.
+TriangleMesh read_mesh_with_uvs(const std::string& path, const Arguments& arguments,
+                                std::uint64_t uv_set);
 
 /// The same made ready as filtering does, with --weld.
 InputMesh read_input_mesh(const std::string& path, const Arguments& arguments);

@@ -26,14 +26,16 @@ OutputNames name_outputs(const TextureSet& set, const std::string& output,
       names.paths[i] = fs::path(output) / texture.path.filename();
       if (!extension.empty()) names.paths[i].replace_extension(extension);
     } else {
-      names.paths[i] = fill_placeholders(output, texture.path, texture.material, texture.udim);
+      names.paths[i] =
+          fill_placeholders(output, texture.path, texture.material, texture.udim, texture.map);
     }
     const std::string key = lower_case(fs::absolute(names.paths[i]).lexically_normal().string());
     const auto [at, is_new] = taken.try_emplace(key, texture.path.string());
     if (!is_new) {
-      throw UsageError("--output: " + at->second + " and " + texture.path.string() +
-                       " would both be written to " + names.paths[i].string() +
-                       "; give a folder (out/) or a pattern with <UDIM>, {stem} or {material}");
+      throw UsageError(
+          "--output: " + at->second + " and " + texture.path.string() +
+          " would both be written to " + names.paths[i].string() +
+          "; give a folder (out/) or a pattern with <UDIM>, {map}, {stem} or {material}");
     }
   }
   return names;

@@ -53,6 +53,8 @@ DistanceMethod distance_of(const Arguments& arguments) {
 
 TextureSlot slot_of(const Arguments& arguments) {
   require_gltf(arguments, "slot");
+  // All of them begin with that one, for the commands that write textures.
+  if (arguments.text("slot") == "all" && arguments.has("gutter")) return TextureSlot::base_colour;
   return arguments.choice<TextureSlot>("slot",
                                        {{"baseColor", TextureSlot::base_colour},
                                         {"occlusion", TextureSlot::occlusion},
@@ -71,7 +73,9 @@ void add_gltf_options(boost::program_options::options_description& options) {
   auto add = options.add_options();
   add("slot", text("baseColor"),
       "glTF: which textures of the materials: baseColor, occlusion (R), emissive, "
-      "metallicRoughness (G and B) or normal; other channels stay as they are");
+      "metallicRoughness (G and B) or normal; other channels stay as they are. filter and fill "
+      "take "
+      "all of them, too: normal maps stay as they are then");
   add("uv-set", text(),
       "glTF: N of TEXCOORD_N for all faces, such as 1 for a light map given by -t (default: what "
       "each texture is for)");

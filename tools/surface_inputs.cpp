@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "atlas.h"
 #include "command.h"
+#include "guides.h"
 #include "interruption.h"
 #include "messages.h"
 #include "onmesh/base/process_memory.h"
+#include "onmesh/image/channels.h"
 #include "onmesh/mesh_io/write_gltf.h"
 #include "shared_options.h"
 #include "tile_names.h"
@@ -31,13 +32,13 @@ std::vector<int> tiles_of(const Arguments& arguments) {
 }
 
 /// Per texture whether the materials of all its faces say that alpha means nothing.
-std::vector<bool> are_opaque(const TriangleMesh& mesh, const TextureSet& set) {
-  std::vector<bool> opaque(set.textures.size(), true);
+std::vector<bool> are_opaque(const TriangleMesh& mesh, const InputMap& map) {
+  std::vector<bool> opaque(map.count, true);
   for (Index f = 0; f < mesh.faces.size(); ++f) {
-    if (set.tile_of_face[f] == kNone) continue;
+    if (map.tile_of_face[f] == kNone) continue;
     const Index material = mesh.face_materials[f];
     if (material == kNone || !mesh.materials[material].is_opaque)
-      opaque[set.tile_of_face[f]] = false;
+      opaque[map.tile_of_face[f]] = false;
   }
   return opaque;
 }
@@ -53,11 +54,14 @@ Image read_mask(const std::string& path, const char* option, std::vector<std::st
 /// One per texture: the file of --mask or --mask-samples, or those that its placeholders stand for.
 /// \param only_written whether textures that are context need none: theirs stay empty
 std::vector<Image> read_masks(const Arguments& arguments, const char* option, bool only_written,
-                              const TextureSet& set, std::vector<std::string>& warnings) {
+                              const std::vector<InputMap>& maps, const TextureSet& set,
+                              std::vector<std::string>& warnings) {
   std::vector<Image> masks;
   if (!arguments.has(option)) return masks;
   const std::string name = arguments.text(option);
-  if (set.textures.size() > 1 && !has_placeholder(name)) {
+  const bool has_one =
+      std::all_of(maps.begin(), maps.end(), [](const InputMap& map) { return map.count == 1; });
+  if (!has_one && !has_placeholder(name)) {
     throw UsageError(dashed(option) + ": " + name + ": there are " +
                      std::to_string(set.textures.size()) +
                      " textures; name a mask for each, with <UDIM>, {stem} or {material}");
@@ -65,7 +69,8 @@ std::vector<Image> read_masks(const Arguments& arguments, const char* option, bo
   for (const SetTexture& texture : set.textures) {
     masks.emplace_back();
     if (only_written && !texture.is_written) continue;
-    const auto path = fill_placeholders(name, texture.path, texture.material, texture.udim);
+    const auto path =
+        fill_placeholders(name, texture.path, texture.material, texture.udim, texture.map);
     masks.back() = read_mask(path.string(), option, warnings);
   }
   return masks;
@@ -77,14 +82,22 @@ bool needs_alpha(const Arguments& arguments) {
          (arguments.has("missing") && arguments.text("missing") == "alpha");
 }
 
-/// The textures' images, and what their codes mean.
-void read_images(const Arguments& arguments, TextureSlot slot, bool has_slot,
-                 SurfaceInputs& inputs) {
-  ColourSpaceRequest spaces = colour_space_request(arguments, slot, has_slot);
+/// A map's images, and what their codes mean.
+void read_images(const Arguments& arguments, bool has_slot, InputMap& map, SurfaceInputs& inputs) {
+  ColourSpaceRequest spaces = colour_space_request(arguments, map.slot, has_slot);
   std::vector<std::string> names;
-  for (const SetTexture& texture : inputs.set.textures) {
-    inputs.images.push_back(read_texture(texture, inputs.warnings));
-    refuse_image_bombs(inputs.set, inputs.images);
+  for (std::size_t i = map.first; i < map.first + map.count; ++i) {
+    const SetTexture& texture = inputs.set.textures[i];
+    const auto same =
+        std::find_if(inputs.set.textures.begin(), inputs.set.textures.begin() + std::ptrdiff_t(i),
+                     [&](const SetTexture& other) { return other.path == texture.path; });
+    const auto number = std::size_t(same - inputs.set.textures.begin());
+    if (number < i) {
+      inputs.images.push_back(inputs.images[number]);
+    } else {
+      inputs.images.push_back(read_texture(texture, inputs.warnings));
+      refuse_image_bombs(inputs.set, inputs.images);
+    }
     Image& image = inputs.images.back();
     spaces.role = texture.role;
     inputs.spaces.push_back(choose_colour_space(image, spaces));
@@ -93,10 +106,108 @@ void read_images(const Arguments& arguments, TextureSlot slot, bool has_slot,
     check_interrupted();
   }
   ChannelRequest request;
-  request.slot = slot;
+  request.slot = map.slot;
   if (arguments.has("layer")) request.layer = arguments.text("layer");
-  if (has_slot && !needs_alpha(arguments)) request.opaque = are_opaque(inputs.mesh, inputs.set);
-  inputs.filtered = choose_channels(request, inputs.images, names, inputs.warnings);
+  if (has_slot && !needs_alpha(arguments)) request.opaque = are_opaque(inputs.mesh_of(map), map);
+  const auto begin = inputs.images.begin() + std::ptrdiff_t(map.first);
+  map.filtered = choose_channels(request, {begin, inputs.images.end()}, names, inputs.warnings);
+}
+
+/// The images of glTF materials for a slot, or what -t says of one map.
+struct MapRequest {
+  std::string name;
+  TextureSlot slot = TextureSlot::base_colour;
+  std::vector<std::string> files;
+};
+
+constexpr std::pair<TextureSlot, const char*> kSlots[] = {
+    {TextureSlot::base_colour, "baseColor"},
+    {TextureSlot::occlusion, "occlusion"},
+    {TextureSlot::emissive, "emissive"},
+    {TextureSlot::metallic_roughness, "metallicRoughness"},
+    {TextureSlot::normal, "normal"}};
+
+/// -t by maps, in the order in which these are named first.
+std::vector<MapRequest> maps_of_files(const std::vector<std::string>& files) {
+  std::vector<MapRequest> maps;
+  for (const std::string& file : files) {
+    const NamedTexture texture = split_texture(file);
+    const auto same = std::find_if(maps.begin(), maps.end(),
+                                   [&](const MapRequest& m) { return m.name == texture.map; });
+    MapRequest& map = same != maps.end() ? *same : maps.emplace_back();
+    map.name = texture.map;
+    map.files.push_back(texture.map.empty() ? file : file.substr(texture.map.size() + 1));
+    if (is_reserved_guide(texture.map))
+      throw UsageError("--texture: " + file + ": '" + texture.map + "' is a guide's name");
+  }
+  const bool some_have_none =
+      std::any_of(maps.begin(), maps.end(), [](const MapRequest& m) { return m.name.empty(); });
+  if (maps.size() > 1 && some_have_none)
+    throw UsageError("--texture: " + maps.back().files[0] +
+                     ": of several maps all have a name: MAP=FILE");
+  return maps;
+}
+
+std::vector<MapRequest> requested_maps(const Arguments& arguments) {
+  const bool all_slots = arguments.text("slot") == "all";
+  if (arguments.has("texture")) {
+    if (all_slots) throw UsageError("--slot all: the mesh's own textures, so not with -t");
+    return maps_of_files(arguments.texts("texture"));
+  }
+  if (!all_slots) return {{"", slot_of(arguments), {}}};
+  std::vector<MapRequest> maps;
+  for (const auto& [slot, name] : kSlots) maps.push_back({name, slot, {}});
+  return maps;
+}
+
+bool have_same_uvs(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.face_uvs == b.face_uvs && a.uvs == b.uvs;
+}
+
+/// Choose the textures of a map and put them behind those that are there.
+/// \return whether there are any
+bool add_map(const Arguments& arguments, const MapRequest& wanted, const TextureRequest& request,
+             SurfaceInputs& inputs) {
+  InputMap map;
+  map.name = wanted.name;
+  map.slot = wanted.slot;
+  const bool is_of_slots = arguments.text("slot") == "all";
+  if (is_of_slots && wanted.slot != TextureSlot::base_colour) {
+    ReadReport unused;
+    auto mesh = std::make_shared<TriangleMesh>(
+        read_mesh_file(inputs.mesh_path, arguments, unused, wanted.slot));
+    map.mesh = std::move(mesh);
+  }
+  const TriangleMesh& mesh = inputs.mesh_of(map);
+  TextureSet set = explained_by(inputs.warnings, [&] {
+    return naming(inputs.mesh_path, [&] {
+      const bool follows = !inputs.maps.empty() && wanted.files.size() == 1 &&
+                           inputs.maps[0].count == 1 && !has_placeholder(wanted.files[0]);
+      return follows ? textures_like(inputs.maps[0].tile_of_face, wanted.files[0])
+                     : choose_textures(mesh, request);
+    });
+  });
+  if (set.textures.empty()) return false;
+  map.first = inputs.set.textures.size();
+  map.count = set.textures.size();
+  map.tile_of_face = set.tile_of_face;
+  map.role = set.textures[0].role;
+  map.is_filtered = map.slot != TextureSlot::normal && !is_normal(map.role);
+  if (map.mesh && have_same_uvs(*map.mesh, inputs.mesh)) map.mesh = nullptr;
+  for (SetTexture& texture : set.textures) {
+    texture.map = map.name;
+    texture.is_written &= map.is_filtered;
+    // An image of several maps is written once.
+    for (const SetTexture& other : inputs.set.textures)
+      texture.is_written &= !(other.path == texture.path && other.is_written);
+  }
+  if (inputs.maps.empty()) {
+    inputs.set = std::move(set);
+  } else {
+    append(std::move(set), inputs.set);
+  }
+  inputs.maps.push_back(std::move(map));
+  return true;
 }
 
 /// Null if there is none.
@@ -106,17 +217,45 @@ const Image* mask_of(const std::vector<Image>& masks, std::size_t texture) {
 
 }  // namespace
 
-SurfaceTextures SurfaceInputs::textures() const {
-  SurfaceTextures textures =
-      surface_textures(set, filtered.parts.empty() ? images : filtered.parts, wrap);
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    TextureTile& tile = textures.tiles[i];
+SurfaceTextures SurfaceInputs::textures(std::size_t number) const {
+  const InputMap& map = maps[number];
+  SurfaceTextures textures;
+  textures.tile_of_face = map.tile_of_face;
+  for (std::size_t i = map.first; i < map.first + map.count; ++i) {
+    const SetTexture& file = set.textures[i];
+    const std::vector<Image>& parts = map.filtered.parts;
+    const Image* const image = parts.empty() ? &images[i] : &parts[i - map.first];
+    TextureTile tile{image, wrap, file.column(), file.row(), file.path.string()};
     tile.space = spaces[i].space;
-    tile.premultiplied = is_premultiplied(images[i]) && tile.image->alpha_channel >= 0;
+    tile.premultiplied = is_premultiplied(images[i]) && image->alpha_channel >= 0;
     tile.mask = mask_of(masks, i);
     tile.sample_mask = mask_of(sample_masks, i);
+    textures.tiles.push_back(tile);
   }
+  const Image& first = *textures.tiles[0].image;
+  textures.maps = {
+      {map.name, int(first.range_channels().size()), spaces[map.first].name == "data"}};
   return textures;
+}
+
+std::vector<Image> SurfaceInputs::whole_images(std::vector<std::vector<Image>> parts) const {
+  std::vector<Image> whole = images;
+  std::size_t next = 0;
+  for (const InputMap& map : maps) {
+    if (!map.is_filtered) continue;
+    std::vector<Image>& own = parts[next++];
+    for (std::size_t i = 0; i < map.count; ++i) {
+      const std::filesystem::path& path = set.textures[map.first + i].path;
+      std::size_t first = 0;
+      while (set.textures[first].path != path) ++first;
+      if (!map.filtered.parts.empty()) {
+        put_channels(own[i], map.filtered.channels[i], whole[first]);
+      } else if (first == map.first + i) {
+        whole[first] = std::move(own[i]);
+      }
+    }
+  }
+  return whole;
 }
 
 void add_surface_options(boost::program_options::options_description& options) {
@@ -156,6 +295,28 @@ std::string why_nothing(const SurfaceInputs& inputs, bool into_gltf) {
   return inputs.mesh_path + ": the UVs of no face have any area" + kAllStay;
 }
 
+namespace {
+
+/// Normal maps stay; those that do not even guide were meant to be filtered.
+void refuse_normals(SurfaceInputs& inputs) {
+  for (std::size_t m = 0; m < inputs.maps.size(); ++m) {
+    const InputMap& map = inputs.maps[m];
+    if (map.is_filtered) continue;
+    const bool guides = std::any_of(
+        inputs.guides.begin(), inputs.guides.end(),
+        [&](const InputGuide& g) { return !map.name.empty() && g.guide.name == map.name; });
+    const std::string name = inputs.set.textures[map.first].path.string();
+    if (map.slot != TextureSlot::normal && !guides) {
+      throw UsageError("--texture: " + name +
+                       ": normal maps are not filtered yet: the mean of "
+                       "their codes is no normal; it may be a guide, see --guide");
+    }
+    inputs.warnings.push_back(name + ": is a normal map and stays as it is");
+  }
+}
+
+}  // namespace
+
 StageTime stage(const char* name, Stopwatch& watch) {
   return {name, watch.lap(), peak_memory_bytes()};
 }
@@ -169,16 +330,14 @@ SurfaceInputs read_surface(const Arguments& arguments, Stopwatch& watch) {
   inputs.mesh_path = arguments.argument("mesh");
   inputs.wrap = wrap_of(arguments);
   TextureRequest request{{}, arguments.optional_text("material"), tiles_of(arguments)};
+  const bool of_slots = arguments.text("slot") == "all";
   // A glTF file with nothing to filter is written as it is, unless a slot was asked for.
   request.may_be_none =
-      arguments.has("output") && is_gltf_name(arguments.text("output")) && !arguments.given("slot");
-  if (arguments.has("texture")) {
-    request.files = arguments.texts("texture");
-  } else {
-    request.confined_to = confining_folder(arguments);
-  }
-  const TextureSlot slot = slot_of(arguments);
-  if (slot == TextureSlot::normal) {
+      of_slots || (arguments.has("output") && is_gltf_name(arguments.text("output")) &&
+                   !arguments.given("slot"));
+  if (!arguments.has("texture")) request.confined_to = confining_folder(arguments);
+  const std::vector<MapRequest> wanted = requested_maps(arguments);
+  if (!of_slots && wanted[0].slot == TextureSlot::normal) {
     throw UsageError(
         "--slot: normal maps are not filtered yet: the mean of their codes is no normal");
   }
@@ -187,14 +346,20 @@ SurfaceInputs read_surface(const Arguments& arguments, Stopwatch& watch) {
   inputs.warnings = read.warnings;
   inputs.stages.push_back(stage("read mesh", watch));
   check_interrupted();
-  inputs.set = explained_by(inputs.warnings, [&] {
-    return naming(inputs.mesh_path, [&] { return choose_textures(inputs.mesh, request); });
-  });
+  const bool has_slot = is_gltf_name(inputs.mesh_path) && !arguments.has("texture");
+  for (const MapRequest& one : wanted) {
+    request.files = one.files;
+    if (add_map(arguments, one, request, inputs))
+      read_images(arguments, has_slot, inputs.maps.back(), inputs);
+  }
   inputs.warnings.insert(inputs.warnings.end(), inputs.set.warnings.begin(),
                          inputs.set.warnings.end());
-  read_images(arguments, slot, is_gltf_name(inputs.mesh_path) && !arguments.has("texture"), inputs);
-  inputs.masks = read_masks(arguments, "mask", true, inputs.set, inputs.warnings);
-  inputs.sample_masks = read_masks(arguments, "mask-samples", false, inputs.set, inputs.warnings);
+  if (inputs.maps.empty()) inputs.set.tile_of_face.assign(inputs.mesh.faces.size(), kNone);
+  inputs.masks = read_masks(arguments, "mask", true, inputs.maps, inputs.set, inputs.warnings);
+  inputs.sample_masks =
+      read_masks(arguments, "mask-samples", false, inputs.maps, inputs.set, inputs.warnings);
+  if (arguments.has("guide")) read_guides(arguments, inputs);
+  refuse_normals(inputs);
   inputs.stages.push_back(stage("read texture", watch));
   return inputs;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boost/program_options/options_description.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "filtered_channels.h"
 #include "flags.h"
 #include "inputs.h"
+#include "onmesh/filter/guide.h"
 #include "onmesh/filter/report.h"
 #include "onmesh/filter/surface_textures.h"
 #include "stopwatch.h"
@@ -17,21 +19,48 @@
 
 namespace onmesh::tools {
 
-/// Mesh, textures and masks as read, and what is told in the end.
+/// A map: some consecutive textures of the set, on the faces that carry them.
+struct InputMap {
+  std::string name;  ///< as -t or the glTF slot has it; empty if it is the only one
+  std::size_t first = 0, count = 0;
+  TextureSlot slot = TextureSlot::base_colour;
+  /// With the map's UVs; null: the mesh itself.
+  std::shared_ptr<const TriangleMesh> mesh = nullptr;
+  std::vector<Index> tile_of_face;  ///< counted from the first of them
+  Role role = Role::unknown;        ///< of its textures
+  bool is_filtered = true;          ///< else it may be a guide, and stays as it is
+  FilteredChannels filtered = {};   ///< what of its textures is filtered
+};
+
+/// A guide with all that it refers to.
+struct InputGuide {
+  Guide guide;
+  std::vector<Image> images;
+  std::shared_ptr<const TriangleMesh> mesh;  ///< with its UVs, if these are others
+  bool is_off = false;                       ///< none: distance alone
+};
+
+/// Mesh, textures, masks and guides as read, and what is told in the end.
 struct SurfaceInputs {
   std::string mesh_path;
   TriangleMesh mesh;
-  TextureSet set;
+  TextureSet set;                          ///< of all maps, one after the other
+  std::vector<InputMap> maps;              ///< at least one unless there are no textures
   std::vector<Image> images;               ///< per texture of the set
   std::vector<ColourSpaceChoice> spaces;   ///< of those
-  FilteredChannels filtered;               ///< what of them is filtered
   std::vector<Image> masks, sample_masks;  ///< per texture, if they were given
+  std::vector<InputGuide> guides;
   Wrap wrap = Wrap::repeat;
   std::vector<StageTime> stages;
   std::vector<std::string> warnings;
 
-  /// What the library takes. Refers to the images and masks.
-  SurfaceTextures textures() const;
+  /// What the library takes of a map. Refers to images and masks.
+  SurfaceTextures textures(std::size_t map = 0) const;
+  const TriangleMesh& mesh_of(const InputMap& map) const { return map.mesh ? *map.mesh : mesh; }
+  /// The results of what is filtered as whole textures; channels that were left out, and maps that
+  /// are not filtered, are as they were. An image that several maps share has them all.
+  /// \param parts per filtered map and texture
+  std::vector<Image> whole_images(std::vector<std::vector<Image>> parts) const;
 };
 
 /// Adds the options that say which textures and which of their channels: --texture, --material,

@@ -173,8 +173,14 @@ void SetBuilder::add(const Group& group) {
                     ": the texture does not exist");
   }
   for (const Index f : faces) set_.tile_of_face[f] = Index(set_.textures.size());
-  set_.textures.push_back(
-      {group.path, material, 0, group.is_written, texture.content, Role::unknown, texture.place});
+  set_.textures.push_back({group.path,
+                           material,
+                           0,
+                           group.is_written,
+                           texture.content,
+                           Role::unknown,
+                           {},
+                           texture.place});
 }
 
 void SetBuilder::add_tiles(const Group& group, const TileName& name,
@@ -384,7 +390,6 @@ TextureSet choose_textures(const TriangleMesh& mesh, const TextureRequest& with_
   for (const Index m : used) {
     if (!mesh.materials[m].texture.empty()) textured.push_back(m);
   }
-  for (const std::string& file : request.files) refuse_maps(file);
   const bool by_material =
       request.files.size() == 1 && request.files[0].find("{material}") != std::string::npos;
   TextureSet set = request.files.empty()       ? of_materials(mesh, used, textured, request)
@@ -394,6 +399,19 @@ TextureSet choose_textures(const TriangleMesh& mesh, const TextureRequest& with_
   require_confined(request, set);
   assign_roles(named, set);
   choose_tiles(request.only, set);
+  return set;
+}
+
+TextureSet textures_like(const std::vector<Index>& tile_of_face, const std::string& file) {
+  const NamedTexture named = split_role(file);
+  if (!is_file(named.name)) throw FileError(named.name + ": the texture does not exist");
+  TextureSet set;
+  SetTexture texture;
+  texture.path = named.name;
+  texture.role = named.role;
+  set.textures = {texture};
+  set.tile_of_face = tile_of_face;
+  set.reason = "the faces of the first map";
   return set;
 }
 
@@ -428,6 +446,11 @@ void refuse_image_bombs(const TextureSet& set, const std::vector<Image>& images)
     if (values > kAlways + kPerByte * double(fs::file_size(mesh, none)))
       throw InputError(mesh.string() + ": its images together are much larger than the file");
   }
+}
+
+void append(TextureSet more, TextureSet& set) {
+  set.textures.insert(set.textures.end(), more.textures.begin(), more.textures.end());
+  set.warnings.insert(set.warnings.end(), more.warnings.begin(), more.warnings.end());
 }
 
 void keep_written(TextureSet& set) {

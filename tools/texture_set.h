@@ -22,6 +22,7 @@ struct SetTexture {
   bool is_written = true;      ///< else it is context: read, filtered, not written
   std::shared_ptr<const std::string> content = nullptr;  ///< if it is inside the mesh file
   Role role = Role::unknown;                             ///< as map.png@data says
+  std::string map = {};                                  ///< of several; empty = the only one
   std::string place = {};  ///< where a mesh file names it, as Material::place
 
   int column() const { return udim == 0 ? 0 : (udim - 1001) % 10; }
@@ -60,6 +61,11 @@ struct TextureRequest {
 ///   missing file, naming the material
 TextureSet choose_textures(const TriangleMesh& mesh, const TextureRequest& request);
 
+/// One file on the faces that another one is on.
+/// \param file with its role
+/// \throw FileError if it is missing
+TextureSet textures_like(const std::vector<Index>& tile_of_face, const std::string& file);
+
 /// 0 for the faces of a material, or for all (none or "all"); kNone for the others.
 /// \throw UsageError if no face has that material
 std::vector<Index> faces_of_material(const TriangleMesh& mesh,
@@ -74,6 +80,9 @@ Image read_texture(const SetTexture& texture, std::vector<std::string>& warnings
 /// \param images of the set's first textures
 /// \throw InputError naming the mesh file
 void refuse_image_bombs(const TextureSet& set, const std::vector<Image>& images);
+
+/// Put another set's textures behind those of a set; faces stay as they are.
+void append(TextureSet more, TextureSet& set);
 
 /// Forget the textures that are not written, and that faces carry them.
 void keep_written(TextureSet& set);

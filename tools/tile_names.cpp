@@ -73,16 +73,6 @@ std::optional<TileName> tile_name(const fs::path& path) {
   return TileName{text.substr(0, at), text.substr(at + 4), false, false};
 }
 
-void refuse_maps(const std::string& file) {
-  std::error_code error;
-  if (fs::exists(file, error)) return;
-  const auto equals = file.find('=');
-  if (equals != std::string::npos && file.find('/') > equals) {
-    throw UsageError("--texture: '" + file.substr(0, equals) +
-                     "=': maps of several kinds cannot be given yet, and there is no file " + file);
-  }
-}
-
 bool has_placeholder(const std::string& output) {
   for (const char* name : {kUdim, kUvTile, "{map}", "{stem}", "{material}", "{ext}"}) {
     if (output.find(name) != std::string::npos) return true;
@@ -96,13 +86,13 @@ bool names_several(const std::string& name) {
 }
 
 fs::path fill_placeholders(const std::string& output, const fs::path& texture,
-                           const std::string& material, int udim) {
+                           const std::string& material, int udim, const std::string& map) {
   const int tile = udim == 0 ? 1001 : udim;
   const std::string extension = texture.extension().string();
   const std::array<std::pair<const char*, std::string>, 6> values{
       {{kUdim, std::to_string(tile)},
        {kUvTile, uv_tile(tile)},
-       {"{map}", "texture"},
+       {"{map}", map.empty() ? "texture" : file_part(map)},
        {"{stem}", texture.stem().string()},
        {"{material}", file_part(material)},
        {"{ext}", extension.empty() ? "" : extension.substr(1)}}};

@@ -22,10 +22,6 @@ struct TileName {
 /// after a dot, a dash or an underscore. Nothing if there is none.
 std::optional<TileName> tile_name(const std::filesystem::path& path);
 
-/// Maps (MAP=FILE) are understood, and not yet there. An existing file of the whole name is a file.
-/// \throw UsageError
-void refuse_maps(const std::string& file);
-
 /// Whether an output's name holds a placeholder.
 bool has_placeholder(const std::string& output);
 
@@ -33,11 +29,13 @@ bool has_placeholder(const std::string& output);
 bool names_several(const std::string& name);
 
 /// An output's name with what the placeholders stand for.
+/// \param map empty = the only one
 /// \param material may be empty
 /// \param udim 0 = none, which counts as 1001
 std::filesystem::path fill_placeholders(const std::string& output,
                                         const std::filesystem::path& texture,
-                                        const std::string& material, int udim);
+                                        const std::string& material, int udim,
+                                        const std::string& map = {});
 
 /// By its extension, in any case.
 bool is_image_name(const std::filesystem::path& path);

@@ -68,7 +68,8 @@ TEST_CASE("samples count as their mask, alpha and values say", "[masks][oracle]"
   const Image result = filter(mesh, textures, options, &report).front();
   CHECK(report.left_out > kSize * kSize / 4);
   Weights weights{report.sigma_spatial, report.radius,
-                  options.kind == FilterKind::bilateral ? options.sigma_range : 0, samples.pixels};
+                  options.kind == FilterKind::bilateral ? options.sigma_range.value : 0,
+                  samples.pixels};
   const DefinitionError error =
       against_definition(mesh, image, result, weights, 400, sheet_distances(mesh));
   INFO("worst " << error.worst);

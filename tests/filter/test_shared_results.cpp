@@ -32,16 +32,24 @@ Samples samples_of(const TexelMap& map) {
 TEST_CASE("shared results are merged by area, and only where the policy says so", "[overlap]") {
   const TexelMap map = make_texel_map(squares_on_one_chart(), kSide, kSide);
   const Samples all = samples_of(map), few = samples_of(first_claims(map));
-  CHECK(SharedResults(OverlapPolicy(Overlap::first, map), few, 2).targets().empty());
-
-  SharedResults shared(OverlapPolicy(Overlap::average, map), all, 2);
-  REQUIRE(shared.targets().size() == all.samples.size());
+  const auto never = [](Index, const float*) { FAIL("it is shared"); };
+  std::vector<float> results;
   for (std::size_t k = 0; k < all.samples.size(); ++k) {
     // 1 on the small square and 6 on the large one, of four times the area: 5 on average.
     const bool is_large = k >= all.samples.size() / 2;
-    const float values[] = {is_large ? 6.0F : 1.0F, float(all.samples[k].texel)};
-    shared.keep(k, values);
+    results.insert(results.end(), {is_large ? 6.0F : 1.0F, float(all.samples[k].texel)});
   }
+  Index alone = 0;
+  SharedResults unshared(OverlapPolicy(Overlap::first, map), few, 2);
+  unshared.store(0, Index(few.samples.size()), results.data(),
+                 [&](Index target, const float*) { CHECK(target == alone++); });
+  CHECK(alone == few.samples.size());
+
+  SharedResults shared(OverlapPolicy(Overlap::average, map), all, 2);
+  // In two parts, as patches come.
+  const auto middle = Index(all.samples.size() / 3);
+  shared.store(0, middle, results.data(), never);
+  shared.store(middle, Index(all.samples.size()), results.data() + std::size_t(middle) * 2, never);
   Index written = 0;
   shared.merge([&](Index texel, const float* values) {
     CHECK(texel == written++);

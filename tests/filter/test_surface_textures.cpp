@@ -135,7 +135,7 @@ double by_definition(const std::vector<Image>& tiles, std::size_t tile, Index te
       const double value = *tiles[i].texel(t);
       double weight = area * std::exp(-d2 / (2 * sigma * sigma));
       if (options.kind == FilterKind::bilateral)
-        weight *= std::exp(-std::pow((value - own) / options.sigma_range, 2) / 2);
+        weight *= std::exp(-std::pow((value - own) / options.sigma_range.value, 2) / 2);
       sum += weight * value;
       weights += weight;
     }

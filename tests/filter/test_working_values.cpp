@@ -76,7 +76,8 @@ Image by_definition(const Image& image, const FilterOptions& options, const char
           if (options.kind == FilterKind::bilateral) {
             for (std::size_t c = 0; c < n; ++c) {
               const double apart = double(features[own * n + c]) - features[other * n + c];
-              exponent += apart * apart / (2 * options.sigma_range * options.sigma_range);
+              exponent +=
+                  apart * apart / (2 * options.sigma_range.value * options.sigma_range.value);
             }
           }
           const double alpha = with_alpha ? double(image.texel(other)[image.alpha_channel]) : 1;

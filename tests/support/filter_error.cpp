@@ -38,7 +38,7 @@ DefinitionError error_of_filter(const TriangleMesh& mesh, const Image& texture,
   weights.sigma = in_mesh_units(options.sigma_spatial, texel_size);
   weights.radius = options.radius ? in_mesh_units(*options.radius, texel_size)
                                   : (bilateral ? 2.5 : 3.0) * weights.sigma;
-  if (bilateral) weights.sigma_range = options.sigma_range;
+  if (bilateral) weights.sigma_range = options.sigma_range.value;
   const DefinitionError error =
       against_definition(mesh, texture, filtered, weights, count, distances);
   if (result != nullptr) *result = std::move(filtered);

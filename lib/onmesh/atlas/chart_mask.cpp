@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "onmesh/atlas/texel_places.h"
+#include "onmesh/atlas/texel_lookup.h"
 #include "onmesh/base/parallel.h"
 
 namespace onmesh {
@@ -31,7 +31,7 @@ class MaskLookup {
     }
     if (same_sizes) return;
     mask_map_ = make_texel_map(mesh, std::move(tiles), map.tile_of_face);
-    places_.emplace(mask_map_);
+    lookup_.emplace(mask_map_);
   }
 
   float at(Index face, const TexelClaim& claim) const {
@@ -40,9 +40,13 @@ class MaskLookup {
     const TexelTile tile = map_.tile_of(face);
     const Image& mask = *masks_[number];
     if (has_size_of(mask, tile)) return value(mask, tile.texel(claim) - tile.first);
-    return bilinear(face, mask,
-                    {(claim.x + 0.5) * mask.width / tile.width - 0.5,
-                     (claim.y + 0.5) * mask.height / tile.height - 0.5});
+    const LookupTexels around =
+        lookup_->around(face, {(claim.x + 0.5) * mask.width / tile.width - 0.5,
+                               (claim.y + 0.5) * mask.height / tile.height - 0.5});
+    float sum = 0;
+    for (std::size_t k = 0; k < std::size_t(around.count); ++k)
+      sum += around.weights[k] * value(mask, around.texels[k] - mask_map_.tiles[number].first);
+    return sum;
   }
 
  private:
@@ -50,29 +54,10 @@ class MaskLookup {
     return mask_value(mask.texel(texel)[mask.alpha_channel == 0 ? 1 : 0]);
   }
 
-  /// \param at in texels of the mask, whose centres are at whole numbers
-  float bilinear(Index face, const Image& mask, const Vec2& at) const {
-    const TexelTile tile = mask_map_.tile_of(face);
-    const int x = int(std::floor(at.x())), y = int(std::floor(at.y()));
-    double own = 0, own_weight = 0, any = 0, any_weight = 0;
-    for (int corner = 0; corner < 4; ++corner) {
-      const TexelClaim there{x + corner % 2, y + corner / 2};
-      const double weight = (1 - std::abs(at.x() - there.x)) * (1 - std::abs(at.y() - there.y));
-      if (!(weight > 0)) continue;
-      const double v = weight * value(mask, tile.texel(there) - tile.first);
-      any += v;
-      any_weight += weight;
-      if (places_->in_chart_of(face, tile, there) == kNone) continue;
-      own += v;
-      own_weight += weight;
-    }
-    return float(own_weight > 0 ? own / own_weight : any / any_weight);
-  }
-
   const TexelMap& map_;
   const std::vector<const Image*>& masks_;
   TexelMap mask_map_;  ///< of the same mesh, with the masks' texels; none if sizes agree
-  std::optional<TexelPlaces> places_;  ///< of those texels
+  std::optional<TexelLookup> lookup_;  ///< among those texels
 };
 
 }  // namespace

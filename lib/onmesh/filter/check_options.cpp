@@ -16,6 +16,8 @@ constexpr double kLeastValue = 1e-15, kLargestValue = 1e15;
 /// More rings than an image has rows.
 constexpr int kMostRings = 32768;
 
+constexpr int kMostIterations = 100;
+
 /// Both ends belong to it.
 void check_between(const char* option, double value, double least, double largest) {
   if (value >= least && value <= largest) return;
@@ -23,14 +25,33 @@ void check_between(const char* option, double value, double least, double larges
                                 number_text(largest));
 }
 
+/// Multiples of noise, or widths whose squares hold.
+void check_width(const char* option, const RangeWidth& width) {
+  if (width.in_noise) return require_within(option, width.value, 1e-3, 1e3, " n");
+  require_within(option, width.value, kLeastValue, kLargestValue);
+}
+
+void check_guide(const Guide& guide) {
+  const std::string option = "guide " + guide.name;
+  if (guide.kind == Guide::Kind::surface_position) {
+    require_positive(option.c_str(), guide.length.value);
+  } else {
+    check_width(option.c_str(), guide.width);
+  }
+  if (guide.blur) require_positive(option.c_str(), guide.blur->value);
+}
+
 void check_numbers(const FilterOptions& options) {
   const auto check = [](const char* option, const std::optional<Length>& length) {
     if (length) require_positive(option, length->value);
   };
   check("sigma_spatial", options.sigma_spatial);
-  if (options.kind == FilterKind::bilateral) {
-    require_within("sigma_range", options.sigma_range, kLeastValue, kLargestValue);
-  }
+  if (options.kind == FilterKind::bilateral && options.guides.empty())
+    check_width("sigma_range", options.sigma_range);
+  for (const Guide& guide : options.guides) check_guide(guide);
+  if (options.despike != 0) check_between("despike", options.despike, 1, 1e6);
+  if (options.iterations < 1 || options.iterations > kMostIterations)
+    throw OptionError("iterations", "must be between 1 and " + std::to_string(kMostIterations));
   check("radius", options.radius);
   check("spacing", options.spacing);
   if (options.r_coef) require_within("r_coef", *options.r_coef, 1e-9, 1e9);
@@ -47,6 +68,8 @@ void check_numbers(const FilterOptions& options) {
 }
 
 void check_combination(const FilterOptions& options) {
+  if (options.kind == FilterKind::gaussian && !options.guides.empty())
+    throw OptionError("guide", "only with kind=bilateral");
   if (options.bridge && options.distance == DistanceMethod::exact) {
     throw OptionError("bridge", "exact distances know none, so not with distance=exact");
   }

@@ -15,7 +15,9 @@
 #include "onmesh/base/text.h"
 #include "onmesh/distance/make_backend.h"
 #include "onmesh/filter/check_options.h"
+#include "onmesh/filter/despike.h"
 #include "onmesh/filter/draw_samples.h"
+#include "onmesh/filter/features.h"
 #include "onmesh/filter/memory_plan.h"
 #include "onmesh/filter/on_threads.h"
 #include "onmesh/filter/patch_loop.h"
@@ -215,45 +217,68 @@ void refuse_nothing(const WorkingValues& working) {
   throw InputError("no texel on the surface has a value: there is nothing to filter");
 }
 
-/// Distances and sums, patch by patch, into the images.
-void filter_samples(const RunContext& run, const NodeMesh& nodes, const FilterSamples& samples,
-                    const WorkingValues& working, const TexelValues& results_at) {
-  const FilterOptions& options = run.options;
-  const WorkingPlan& lengths = run.setup.lengths;
-  const bool bilateral = options.kind == FilterKind::bilateral;
-  const auto backend = make_backend(options.distance, run.setup.mesh, nodes);
-  note_backend(*backend, options.distance, run.setup.cleaning, run.report);
-  const ConstTexelValues codes = run.textures.values();
+/// What all sums have in common.
+PatchWork patch_work(const SurfaceWork& surface, const WorkingValues& working, double range_width) {
+  const FilterOptions& options = surface.options;
+  const WorkingPlan& lengths = surface.setup.lengths;
   PatchWork work;
-  work.nodes = &nodes;
-  work.backend = backend.get();
-  work.sources = &samples.sources;
-  work.targets = &samples.targets();
+  work.nodes = &surface.nodes;
+  work.backend = &surface.backend;
+  work.sources = &surface.samples.sources;
+  work.targets = &surface.samples.targets();
   work.colours = working.colours();
-  work.kernel = {lengths.sigma_spatial, lengths.radius, bilateral ? options.sigma_range : 0};
+  work.kernel = {lengths.sigma_spatial, lengths.radius, range_width};
   work.method = options.method;
   work.has_missing = working.missing() > 0;
-  if (options.distance == DistanceMethod::exact) refuse_long_runs(work);
+  work.shared_features = working.layout().shared;
   if (options.method != FilterMethod::direct) {
-    work.tolerance = options.tolerance * robust_extent(codes, run.setup.map);
-    work.hot_faces = hot_faces(working.straight(), run.setup.map, samples.sources);
-    work.encode = [&](float* values, std::size_t targets) {
+    work.tolerance =
+        options.tolerance * robust_extent(surface.textures.values(), surface.setup.map);
+    work.hot_faces = hot_faces(working.straight(), surface.setup.map, *work.sources);
+    work.encode = [&working](float* values, std::size_t targets) {
       working.encode_means(values, targets);
     };
   }
+  return work;
+}
 
+void take_spikes(const SurfaceWork& surface, WorkingValues& working, FilterReport& report) {
+  if (surface.options.despike == 0) return;
+  const DespikeReport done = despike(surface.nodes, surface.backend, surface.samples.sources,
+                                     surface.samples.targets(), surface.options.despike, working);
+  working.settle();
+  report.spikes = done.spikes;
+  report.mean_before = done.mean_before;
+  report.mean_after = done.mean_after;
+}
+
+/// Distances and sums, patch by patch and as often as asked for, into the images.
+void filter_samples(const RunContext& run, const SurfaceWork& surface, WorkingValues& working,
+                    const Features& features, const TexelValues& results_at) {
+  const FilterOptions& options = run.options;
+  Features renewed = features;
   const bool poisson = options.samples == SampleKind::poisson;
-  Results results(run.setup.overlap, samples.targets(), working,
-                  value_range(working, poisson ? &samples.sources : nullptr), results_at);
-  const PatchCounts counts = filter_patches(
-      work, [&](Index begin, Index end, const float* values) { results.store(begin, end, values); },
-      [&](double done) { run.stages.advance(done); });
-  results.merge_shared();
-  note_counts(counts, run.report);
-  if (const Index unfolded = backend->unfolded_patches(); unfolded > 0) {
-    run.report.warnings.push_back(count_text(unfolded, "part", "parts") +
-                                  " of the surface with faces too thin for " +
-                                  std::string(backend->name()) + ": distances are unfolded there");
+  const ValueRange range = value_range(working, poisson ? &surface.samples.sources : nullptr);
+  for (int pass = 0; pass < options.iterations; ++pass) {
+    if (pass > 0) {
+      working.take_results(results_at, options.guides_from_result);
+      working.settle();
+      if (options.guides_from_result) renewed.renew();
+    }
+    const PatchWork work = patch_work(surface, working, renewed.width());
+    if (options.distance == DistanceMethod::exact && pass == 0) refuse_long_runs(work);
+    Results results(run.setup.overlap, surface.samples.targets(), working, range, results_at);
+    const PatchCounts counts = filter_patches(
+        work,
+        [&](Index begin, Index end, const float* values) { results.store(begin, end, values); },
+        [&](double done) { run.stages.advance((pass + done) / options.iterations); });
+    results.merge_shared();
+    note_counts(counts, run.report);
+  }
+  if (const Index unfolded = surface.backend.unfolded_patches(); unfolded > 0) {
+    run.report.warnings.push_back(
+        count_text(unfolded, "part", "parts") + " of the surface with faces too thin for " +
+        std::string(surface.backend.name()) + ": distances are unfolded there");
   }
 }
 
@@ -276,7 +301,7 @@ std::vector<Image> run_filter(const TriangleMesh& mesh, const SurfaceTextures& t
 
     stages.begin("samples");
     const Masks masks = look_up_masks(run);
-    const WorkingValues working(textures, setup.map, options, masks.of_samples);
+    WorkingValues working(textures, setup.map, options, masks.of_samples);
     refuse_nothing(working);
     const ResultValues results(working, images);
     FilterSamples samples = draw_samples(setup, surface, options, progress);
@@ -286,8 +311,16 @@ std::vector<Image> run_filter(const TriangleMesh& mesh, const SurfaceTextures& t
     report.texels = samples.targets().samples.size();
     stages.end();
 
+    const auto backend = make_backend(options.distance, setup.mesh, surface.nodes);
+    note_backend(*backend, options.distance, setup.cleaning, report);
+    const SurfaceWork work{mesh, textures, setup, options, surface.nodes, *backend, samples};
+    stages.begin("features");
+    take_spikes(work, working, report);
+    const Features features(work, working, report);
+    stages.end();
+
     stages.begin("filter");
-    filter_samples(run, surface.nodes, samples, working, results.values());
+    filter_samples(run, work, working, features, results.values());
     samples = {};
     surface = {};
     stages.end();
@@ -315,8 +348,9 @@ std::vector<Image> filter(const TriangleMesh& mesh, const SurfaceTextures& textu
   FilterReport unused;
   FilterReport& out = report != nullptr ? *report : unused;
   out = {};
+  const FilterOptions settled = settle_guides(textures, options);
   return on_threads(options.threads,
-                    [&] { return run_filter(mesh, textures, options, out, progress); });
+                    [&] { return run_filter(mesh, textures, settled, out, progress); });
 }
 
 Image filter(const TriangleMesh& mesh, const Image& texture, const FilterOptions& options,
@@ -327,7 +361,7 @@ Image filter(const TriangleMesh& mesh, const Image& texture, const FilterOptions
 
 FilterPlan plan_filter(const TriangleMesh& mesh, const SurfaceTextures& textures,
                        const FilterOptions& options) {
-  return set_up_filter(mesh, textures, options).mesh_plan;
+  return set_up_filter(mesh, textures, settle_guides(textures, options)).mesh_plan;
 }
 
 FilterPlan plan_filter(const TriangleMesh& mesh, const Image& texture,

@@ -8,7 +8,9 @@
 #include "onmesh/atlas/overlap.h"
 #include "onmesh/atlas/texel_map.h"
 #include "onmesh/distance/backend.h"
+#include "onmesh/filter/guide.h"
 #include "onmesh/filter/length.h"
+#include "onmesh/filter/range_width.h"
 
 namespace onmesh {
 
@@ -43,9 +45,20 @@ struct FilterOptions {
   FilterKind kind = FilterKind::bilateral;  ///< with or without a range weight
   /// Width of the filter on the surface: standard deviation of the spatial weight; > 0.
   Length sigma_spatial{4, Length::Unit::texel};
-  /// Bilateral only: standard deviation of the range weight, in the units of range_space; > 0.
-  double sigma_range = 0.1;
+  /// Bilateral only, without guides: standard deviation of the range weight, in the units of
+  /// range_space; > 0.
+  RangeWidth sigma_range = 0.1;
   RangeSpace range_space = RangeSpace::code;  ///< bilateral only: what sigma_range is in
+  /// Bilateral only: what range weights compare; empty = own values with sigma_range.
+  std::vector<Guide> guides;
+  /// Values that stick out of those within three texels so many times are taken down to them before
+  /// all else, see despike(); 0 = none, else [1, 1e6].
+  double despike = 0;
+  /// How often the sums are done, each time of the last result; [1, 100].
+  int iterations = 1;
+  /// Range weights of all but the first of them compare the last result, where they compare what is
+  /// filtered; else the input.
+  bool guides_from_result = false;
   /// How far samples count; > 0. Default: 2.5 sigma_spatial (bilateral) or 3 (Gaussian).
   std::optional<Length> radius;
 

@@ -4,32 +4,16 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
 #include <mutex>
 
+#include "onmesh/filter/patch_tables.h"
 #include "onmesh/kernel/cost_model.h"
-#include "onmesh/kernel/radius.h"
-#include "onmesh/patches/edge_extents.h"
-#include "onmesh/patches/grow_patch.h"
-#include "onmesh/patches/partition.h"
 
 namespace onmesh {
 namespace {
-
-/// A patch whose table would have more entries is split: 64 MB a thread at most.
-constexpr double kTableEntries = 16e6;
-
-/// Core faces of a patch, at most: more rarely have a table that is small enough.
-constexpr double kCoreFaces = 6000;
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
 
 /// How many targets the node faces have.
 struct TargetCounts {
@@ -65,12 +49,6 @@ double target_weight(double targets, bool by_nodes, double targets_per_square_si
                   std::clamp(targets / 48, 2048.0, 524288.0));
 }
 
-/// For the back ends that know of them.
-std::vector<double> extents_for(const PatchWork& work) {
-  if (!work.backend->knows_extents() || work.nodes->bridge_faces > 0) return {};
-  return edge_extents(*work.nodes);
-}
-
 /// Whether it is worth evaluating on nodes. Direct sums that take no time to speak of are better.
 bool choose_nodes(const PatchWork& work, const WorkSize& size) {
   if (work.method != FilterMethod::automatic) return work.method == FilterMethod::nodes;
@@ -82,44 +60,37 @@ bool choose_nodes(const PatchWork& work, const WorkSize& size) {
 
 class PatchFilter {
  public:
-  /// \param extents see edge_extents(); empty if the back end does not know of them
+  /// \param extents see extents_for()
   PatchFilter(const PatchWork& work, bool by_nodes, const std::vector<double>& extents,
               const StoreResults& store)
       : work_(work),
         store_(store),
-        extents_(extents),
-        longest_edge_(work.nodes->longest_edge()),
         by_nodes_(by_nodes),
+        tables_(*work.nodes, *work.backend, extents),
         kernel_(work.kernel),
-        blur_({work.kernel.sigma_spatial, work.kernel.radius, 0}),
+        fill_({work.kernel.sigma_spatial, work.kernel.radius,
+               work.shared_features > 0 ? work.kernel.sigma_range : 0}),
         nodes_(work.kernel, work.tolerance, work.method == FilterMethod::nodes, work.encode) {}
 
   /// Filter the targets of the core faces.
   void run(const std::vector<Index>& core, PatchCounts& counts) {
-    const double start = thread_seconds();
-    Reach reach;
-    const Patch patch = grow(core, reach);
-    const double entries = double(patch.core_nodes) * double(patch.nodes.size());
-    if (entries > kTableEntries && core.size() > 1) {
-      const std::vector<std::vector<Index>> parts = split_core(patch);
-      counts.table_cpu_seconds += thread_seconds() - start;
-      for (const std::vector<Index>& part : parts) run(part, counts);
-      return;
-    }
-    work_.backend->fill(patch, reach, table_);
-    const double filled = thread_seconds();
-    sum(patch, counts);
-    store_values(patch);
-    ++counts.patches;
-    counts.table_rows += patch.core_nodes;
-    counts.table_cpu_seconds += filled - start;
-    counts.kernel_cpu_seconds += thread_seconds() - filled;
+    PatchTables::Counts tables;
+    tables_.run(core, work_.kernel.radius, tables,
+                [&](const Patch& patch, const DistanceTable& table) {
+                  const double start = thread_seconds();
+                  sum(patch, table, counts);
+                  store_values(patch);
+                  counts.kernel_cpu_seconds += thread_seconds() - start;
+                });
+    counts.patches += tables.patches;
+    counts.table_rows += tables.rows;
+    counts.table_cpu_seconds += tables.cpu_seconds;
   }
 
  private:
   /// From the table to values_, on the nodes or directly.
-  void sum(const Patch& patch, PatchCounts& counts) {
-    const KernelInput input{&patch, &table_, work_.sources, work_.targets, work_.colours, nullptr};
+  void sum(const Patch& patch, const DistanceTable& table, PatchCounts& counts) {
+    const KernelInput input{&patch, &table, work_.sources, work_.targets, work_.colours, nullptr};
     KernelCounts kernel;
     NodeCheck check;
     if (by_nodes_ && !has_hot_sample(patch) && nodes_.run(input, kernel_, values_, kernel, check)) {
@@ -143,7 +114,8 @@ class PatchFilter {
                                                    [&](Index f) { return work_.hot_faces[f]; });
   }
 
-  /// Targets that have nothing to be compared by get the mean that the Gaussian filter gives.
+  /// Targets without a value of their own get the mean around them, by what they can be compared
+  /// by.
   KernelCounts fill_missing(const KernelInput& input) {
     const std::vector<Index> slots = first_slots(input);
     const Patch& patch = *input.patch;
@@ -153,8 +125,8 @@ class PatchFilter {
       const Sample* const targets =
           input.targets->samples.data() + input.targets->face_offsets[patch.faces[f]];
       for (Index slot = slots[f]; slot < slots[f + 1]; ++slot) {
-        const float* const floats = input.colours.of(targets[slot - slots[f]].texel);
-        only_[slot] = !std::all_of(floats, floats + input.colours.fields(),
+        const float* const values = input.colours.values_of(targets[slot - slots[f]].texel);
+        only_[slot] = !std::all_of(values, values + input.colours.channels,
                                    [](float value) { return std::isfinite(value); });
         filled_ += only_[slot];
       }
@@ -162,12 +134,13 @@ class PatchFilter {
     if (filled_ == 0) return {};
     KernelInput missing = input;
     missing.only = &only_;
-    missing.colours.range_channels = 0;
-    const KernelCounts counts = blur_.run(missing, blurred_);
+    missing.fills = true;
+    missing.colours.range_channels = work_.shared_features;
+    const KernelCounts counts = fill_.run(missing, means_);
     const auto channels = std::size_t(input.colours.channels);
     for (std::size_t slot = 0; slot < only_.size(); ++slot) {
       if (only_[slot] == 0) continue;
-      std::copy_n(&blurred_[slot * channels], channels, &values_[slot * channels]);
+      std::copy_n(&means_[slot * channels], channels, &values_[slot * channels]);
     }
     return counts;
   }
@@ -182,43 +155,17 @@ class PatchFilter {
     }
   }
 
-  /// \param reach set to how far the core's distances must be right
-  Patch grow(const std::vector<Index>& core, Reach& reach) const {
-    const double radius = largest_distance(work_.kernel.radius);
-    if (!extents_.empty()) {
-      reach = Reach::up_to(radius);
-      return grow_patch(*work_.nodes, core, radius, extents_);
-    }
-    // A pair within the radius lies in faces whose corners are at most two edges farther apart. How
-    // long these edges are is known only once the patch is there: try a little more than the
-    // core's.
-    double edge = 0;
-    for (const Index f : core) {
-      for (const double length : work_.nodes->lengths[f]) edge = std::max(edge, length);
-    }
-    edge = std::min(1.05 * edge, longest_edge_);
-    for (;;) {
-      reach = {radius, radius + 2 * edge};
-      const double margin = work_.backend->margin(reach.table, edge);
-      Patch patch = grow_patch(*work_.nodes, core, reach.table + margin);
-      if (patch.longest_edge <= edge || edge >= longest_edge_) return patch;
-      edge = std::min(1.02 * patch.longest_edge, longest_edge_);
-    }
-  }
-
   const PatchWork& work_;
   const StoreResults& store_;
-  const std::vector<double>& extents_;
-  const double longest_edge_;
   const bool by_nodes_;
+  PatchTables tables_;
   DirectKernel kernel_;
-  DirectKernel blur_;  ///< without a range weight
+  DirectKernel fill_;  ///< without own values
   CheckedKernel nodes_;
-  DistanceTable table_;
   std::vector<float> values_;
   std::vector<unsigned char> only_;  ///< targets that are filled
   std::uint64_t filled_ = 0;         ///< how many these are
-  std::vector<float> blurred_;
+  std::vector<float> means_;
 };
 
 }  // namespace
@@ -242,14 +189,9 @@ PatchCounts filter_patches(const PatchWork& work, const StoreResults& store,
   const double sigma = work.kernel.sigma_spatial;
   const double weight_of_core =
       target_weight(size.targets, by_nodes, sigma * sigma * size.targets / size.area);
-  std::vector<double> weights = targets.of_face;
-  for (double& weight : weights) {
-    if (weight > 0) weight = std::max(weight, weight_of_core / kCoreFaces);
-  }
   const std::vector<std::vector<Index>> cores =
-      partition_faces(*work.nodes, weights, weight_of_core);
-
-  const std::vector<double> extents = extents_for(work);
+      make_cores(*work.nodes, targets.of_face, weight_of_core);
+  const std::vector<double> extents = extents_for(*work.nodes, *work.backend);
   tbb::enumerable_thread_specific<PatchFilter> filters(
       [&] { return PatchFilter(work, by_nodes, extents, store); });
   // Summed in the end, so that sums don't depend on the threads.
@@ -281,7 +223,7 @@ double estimate_table_seconds(const PatchWork& work) {
   if (targets.last_face == kNone) return 0;
   PatchCounts counts;
   const StoreResults nothing = [](Index, Index, const float*) {};
-  const std::vector<double> extents = extents_for(work);
+  const std::vector<double> extents = extents_for(*work.nodes, *work.backend);
   PatchFilter(work, false, extents, nothing).run({targets.last_face}, counts);
   // Nodes between patches are sources of each of them: about a third more.
   const double sources = targets.size.nodes * 1.3;

@@ -22,7 +22,8 @@ struct PatchWork {
   FilterMethod method = FilterMethod::direct;
   double tolerance = 0;  ///< of codes, > 0; not for FilterMethod::direct
   EncodeValues encode;   ///< from values to codes, which errors are measured in; empty = the same
-  bool has_missing = false;  ///< some targets cannot be compared: they get the mean around them
+  bool has_missing = false;  ///< some targets have no value: they get the mean around them
+  int shared_features = 0;   ///< so many of the first features do not come from own values
   /// Node faces with a sample so far from all others that sums on nodes would lose those beside it;
   /// empty = none.
   std::vector<bool> hot_faces;

@@ -75,6 +75,12 @@ struct FilterReport {
   std::uint64_t missing = 0;         ///< texels on the surface without a value
   std::uint64_t left_out = 0;        ///< those of them that the mask of samples leaves out
 
+  double range_width = 0;    ///< of the first range weight, in its features' unit; 0 = none
+  double noise = 0;          ///< of own values in range space, where a width is a multiple of it
+  std::uint64_t spikes = 0;  ///< texels that were taken down
+  double mean_before = 0;    ///< over the surface, of luminance or data, before that was done
+  double mean_after = 0;     ///< the same afterwards
+
   std::string method;          ///< "direct", "nodes" or "nodes and direct"
   std::uint64_t by_nodes = 0;  ///< targets evaluated on nodes
   std::uint64_t checked = 0;   ///< values among theirs that were compared with direct sums

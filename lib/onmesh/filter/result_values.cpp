@@ -8,10 +8,6 @@
 namespace onmesh {
 namespace {
 
-bool are_finite(const float* values, std::size_t count) {
-  return std::all_of(values, values + count, [](float v) { return std::isfinite(v); });
-}
-
 /// Straight colours turned into codes, side by side.
 void to_codes(const TextureTile& tile, std::size_t channels, std::vector<float>& colours) {
   if (tile.space) tile.space->from_linear(colours.data(), colours.size() / channels, int(channels));
@@ -46,29 +42,44 @@ void ResultValues::over_tiles(const Body& body) const {
 
 void ResultValues::blend(const FilterOptions& options, const std::vector<float>& mask) const {
   if (options.strength == 1 && options.detail_gain == 0 && mask.empty()) return;
+  const std::size_t channels = working_.channels().size();
   over_tiles([&](Index first, Index count, const TextureTile& tile) {
     over_blocks(count, [&](std::size_t begin, std::size_t end) {
+      std::vector<float> read;
+      const std::vector<Index> covered = covered_texels(first + begin, first + end, read);
       std::vector<Index> known;
-      for (std::size_t t = first + begin; t < first + end; ++t) {
-        if (working_.map().coverage[t] == Coverage::covered &&
-            are_finite(working_.straight().values_of(Index(t)), working_.channels().size()))
-          known.push_back(Index(t));
+      std::vector<float> before;
+      for (std::size_t k = 0; k < covered.size(); ++k) {
+        const float* const own = &read[k * channels];
+        if (working_.was_missing(covered[k])) continue;
+        known.push_back(covered[k]);
+        before.insert(before.end(), own, own + channels);
       }
-      blend_some(known, options.strength, mask);
-      if (options.detail_gain != 0) add_detail(known, tile, options.detail_gain);
+      blend_some(known, before, options.strength, mask);
+      if (options.detail_gain != 0) add_detail(known, before, tile, options.detail_gain);
     });
   });
 }
 
-void ResultValues::blend_some(const std::vector<Index>& texels, double strength,
-                              const std::vector<float>& mask) const {
+/// \param read receives their colours as they were read
+std::vector<Index> ResultValues::covered_texels(std::size_t begin, std::size_t end,
+                                                std::vector<float>& read) const {
+  std::vector<Index> covered;
+  for (std::size_t t = begin; t < end; ++t)
+    if (working_.map().coverage[t] == Coverage::covered) covered.push_back(Index(t));
+  working_.read_straight(covered, read);
+  return covered;
+}
+
+void ResultValues::blend_some(const std::vector<Index>& texels, const std::vector<float>& before,
+                              double strength, const std::vector<float>& mask) const {
   const auto mix = [](float from, float to, float share) {
     // The ends are exact.
     return share == 1 ? to : share == 0 ? from : from + share * (to - from);
   };
+  const float* in = before.data();
   for (const Index t : texels) {
     const auto share = float(strength) * (mask.empty() ? 1 : mask[t]);
-    const float* in = working_.straight().values_of(t);
     float* const out = values_[t];
     for (const int c : working_.channels()) {
       out[c] = mix(*in, out[c], share);
@@ -81,15 +92,12 @@ void ResultValues::blend_some(const std::vector<Index>& texels, double strength,
 }
 
 /// In codes, and back into light: the gutter goes on from there.
-void ResultValues::add_detail(const std::vector<Index>& texels, const TextureTile& tile,
-                              double gain) const {
+void ResultValues::add_detail(const std::vector<Index>& texels, const std::vector<float>& read,
+                              const TextureTile& tile, double gain) const {
   const std::vector<int>& channels = working_.channels();
-  std::vector<float> before, after;
-  for (const Index t : texels) {
-    const float* in = working_.straight().values_of(t);
-    before.insert(before.end(), in, in + channels.size());
+  std::vector<float> before = read, after;
+  for (const Index t : texels)
     for (const int c : channels) after.push_back(values_[t][c]);
-  }
   to_codes(tile, channels.size(), before);
   to_codes(tile, channels.size(), after);
   const bool is_integer = levels_of(*tile.image) > 0;
@@ -98,22 +106,21 @@ void ResultValues::add_detail(const std::vector<Index>& texels, const TextureTil
     if (is_integer) after[i] = std::clamp(after[i], 0.F, 1.F);
   }
   if (tile.space) tile.space->to_linear(after.data(), texels.size(), int(channels.size()));
-  const float* next = after.data();
-  for (const Index t : texels) {
-    const bool stays = has_own_colour(t);
+  for (std::size_t k = 0; k < texels.size(); ++k) {
+    const bool stays = is_as_read(texels[k], &read[k * channels.size()]);
+    const float* next = &after[k * channels.size()];
     for (const int c : channels) {
       const float value = *next++;
-      if (!stays && std::isfinite(value)) values_[t][c] = value;
+      if (!stays && std::isfinite(value)) values_[texels[k]][c] = value;
     }
   }
 }
 
-/// A covered texel with the colour that it had.
-bool ResultValues::has_own_colour(Index texel) const {
-  if (working_.map().coverage[texel] != Coverage::covered) return false;
-  const float *before = working_.straight().values_of(texel), *const after = values_[texel];
+/// The texel has the colour that it had.
+bool ResultValues::is_as_read(Index texel, const float* read) const {
+  const float* const after = values_[texel];
   return std::all_of(working_.channels().begin(), working_.channels().end(), [&](int c) {
-    const float was = *before++;
+    const float was = *read++;
     return was == after[c] || (std::isnan(was) && std::isnan(after[c]));
   });
 }
@@ -124,12 +131,13 @@ float ResultValues::alpha_factor(Index texel, const TextureTile& tile) const {
   const int channel = codes_.alpha_channel();
   const float alpha = values_[texel][channel];
   // Colour over alpha 0 is emission and was not divided; unless it is new.
-  const bool is_kept = !(codes_[texel][channel] > 0) &&
-                       are_finite(working_.straight().values_of(texel), working_.channels().size());
+  const bool is_kept = !(codes_[texel][channel] > 0) && !working_.was_missing(texel);
   return is_kept || !(alpha > 0) ? 1 : alpha;
 }
 
-void ResultValues::encode_some(const std::vector<Index>& texels, const TextureTile& tile) const {
+/// \param read of covered texels, as they were read; empty = they are no such
+void ResultValues::encode_some(const std::vector<Index>& texels, const std::vector<float>& read,
+                               const TextureTile& tile) const {
   const std::vector<int>& channels = working_.channels();
   std::vector<float> encoded;
   encoded.reserve(texels.size() * channels.size());
@@ -137,11 +145,13 @@ void ResultValues::encode_some(const std::vector<Index>& texels, const TextureTi
     for (const int c : channels) encoded.push_back(values_[t][c]);
   to_codes(tile, channels.size(), encoded);
   const float* next = encoded.data();
-  for (const Index t : texels) {
+  for (std::size_t k = 0; k < texels.size(); ++k) {
+    const Index t = texels[k];
     const float factor = alpha_factor(t, tile);
     const bool was_divided = tile.premultiplied && codes_[t][codes_.alpha_channel()] > 0;
     const float own_factor = was_divided ? codes_[t][codes_.alpha_channel()] : 1;
-    const bool stays = factor == own_factor && has_own_colour(t);
+    const bool stays =
+        factor == own_factor && !read.empty() && is_as_read(t, &read[k * channels.size()]);
     for (const int c : channels) {
       const float code = *next++ * factor;
       values_[t][c] = stays ? codes_[t][c] : code;
@@ -154,15 +164,14 @@ void ResultValues::encode(const std::vector<Index>& others) const {
   auto other = others.begin();
   over_tiles([&](Index first, Index count, const TextureTile& tile) {
     over_blocks(count, [&](std::size_t begin, std::size_t end) {
-      std::vector<Index> covered;
-      for (std::size_t t = first + begin; t < first + end; ++t)
-        if (working_.map().coverage[t] == Coverage::covered) covered.push_back(Index(t));
-      encode_some(covered, tile);
+      std::vector<float> read;
+      const std::vector<Index> covered = covered_texels(first + begin, first + end, read);
+      encode_some(covered, read, tile);
     });
     const auto end_of_others = std::lower_bound(other, others.end(), first + count);
     over_blocks(std::size_t(end_of_others - other), [&](std::size_t begin, std::size_t end) {
       const std::vector<Index> some(other + std::ptrdiff_t(begin), other + std::ptrdiff_t(end));
-      encode_some(some, tile);
+      encode_some(some, {}, tile);
     });
     other = end_of_others;
   });

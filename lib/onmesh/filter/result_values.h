@@ -32,11 +32,15 @@ class ResultValues {
  private:
   template <class Body>
   void over_tiles(const Body& body) const;
-  void blend_some(const std::vector<Index>& texels, double strength,
-                  const std::vector<float>& mask) const;
-  void add_detail(const std::vector<Index>& texels, const TextureTile& tile, double gain) const;
-  void encode_some(const std::vector<Index>& texels, const TextureTile& tile) const;
-  bool has_own_colour(Index texel) const;
+  std::vector<Index> covered_texels(std::size_t begin, std::size_t end,
+                                    std::vector<float>& read) const;
+  void blend_some(const std::vector<Index>& texels, const std::vector<float>& before,
+                  double strength, const std::vector<float>& mask) const;
+  void add_detail(const std::vector<Index>& texels, const std::vector<float>& read,
+                  const TextureTile& tile, double gain) const;
+  void encode_some(const std::vector<Index>& texels, const std::vector<float>& read,
+                   const TextureTile& tile) const;
+  bool is_as_read(Index texel, const float* read) const;
   float alpha_factor(Index texel, const TextureTile& tile) const;
 
   const WorkingValues& working_;

@@ -113,6 +113,28 @@ std::pair<double, double> robust_range(const TexelMap& map, const std::vector<in
   return {low, high};
 }
 
+/// See robust_extent().
+template <class ValuesOf>
+double extent_of(const TexelMap& map, const std::vector<int>& channels, const ValuesOf& values_of) {
+  const auto [low, high] = robust_range(map, channels, values_of);
+  double largest = 0;
+  for (Index t = 0; t < map.coverage.size(); ++t) {
+    if (map.coverage[t] != Coverage::covered) continue;
+    for (const int c : channels) {
+      const double value = std::abs(values_of(t)[c]);
+      if (std::isfinite(value)) largest = std::max(largest, value);
+    }
+  }
+  const double extent = std::max(high - low, 1e-6 * largest);
+  return extent > 0 ? extent : 1;
+}
+
+std::vector<int> all_channels(const Colours& colours) {
+  std::vector<int> channels(std::size_t(colours.channels));
+  std::iota(channels.begin(), channels.end(), 0);
+  return channels;
+}
+
 }  // namespace
 
 ValueRange value_range(const WorkingValues& working, const Samples* sources) {
@@ -130,25 +152,21 @@ ValueRange value_range(const WorkingValues& working, const Samples* sources) {
 }
 
 double robust_extent(const ConstTexelValues& codes, const TexelMap& map) {
-  const auto [low, high] =
-      robust_range(map, codes.range_channels(), [&](Index texel) { return codes[texel]; });
-  double largest = 0;
-  for (Index t = 0; t < codes.size(); ++t) {
-    if (map.coverage[t] != Coverage::covered) continue;
-    for (const int c : codes.range_channels()) {
-      const double code = std::abs(codes[t][c]);
-      if (std::isfinite(code)) largest = std::max(largest, code);
-    }
-  }
-  const double extent = std::max(high - low, 1e-6 * largest);
-  return extent > 0 ? extent : 1;
+  return robust_extent(codes, codes.range_channels(), map);
+}
+
+double robust_extent(const ConstTexelValues& codes, const std::vector<int>& channels,
+                     const TexelMap& map) {
+  return extent_of(map, channels, [&](Index texel) { return codes[texel]; });
+}
+
+double robust_extent(const Colours& colours, const TexelMap& map) {
+  return extent_of(map, all_channels(colours), [&](Index t) { return colours.values_of(t); });
 }
 
 std::vector<bool> hot_faces(const Colours& colours, const TexelMap& map, const Samples& sources) {
-  std::vector<int> channels(std::size_t(colours.channels));
-  std::iota(channels.begin(), channels.end(), 0);
-  const auto [low, high] =
-      robust_range(map, channels, [&](Index texel) { return colours.values_of(texel); });
+  const auto [low, high] = robust_range(map, all_channels(colours),
+                                        [&](Index texel) { return colours.values_of(texel); });
   const double extent = high - low, lowest = low - extent, highest = high + extent;
   std::vector<bool> hot;
   for (Index f = 0; f + 1 < sources.face_offsets.size(); ++f) {
@@ -185,16 +203,9 @@ void Results::store(Index begin, Index end, const float* values) {
   // Texels of a face are in many rows; none should be waited for by itself.
   for (Index target = begin; target < end; ++target)
     hwy::Prefetch(texels_[targets_.samples[target].texel]);
-  const std::vector<Index>& several = shared_.targets();
-  auto shared = std::lower_bound(several.begin(), several.end(), begin);
-  for (Index target = begin; target < end; ++target, values += channels) {
-    if (shared != several.end() && *shared == target) {
-      shared_.keep(std::size_t(shared - several.begin()), values);
-      ++shared;
-    } else {
-      write(targets_.samples[target].texel, values);
-    }
-  }
+  shared_.store(begin, end, values, [&](Index target, const float* own) {
+    write(targets_.samples[target].texel, own);
+  });
 }
 
 void Results::merge_shared() {

@@ -23,6 +23,11 @@ ValueRange value_range(const WorkingValues& working, const Samples* sources);
 /// How far the texels' codes go without rare ones: from below the 99.9th percentile over the
 /// surface to above the 0.1th, of all channels; at least 1e-6 of the largest; 1 if all are 0.
 double robust_extent(const ConstTexelValues& codes, const TexelMap& map);
+/// The same of some channels.
+double robust_extent(const ConstTexelValues& codes, const std::vector<int>& channels,
+                     const TexelMap& map);
+/// The same of colours or features.
+double robust_extent(const Colours& colours, const TexelMap& map);
 
 /// Node faces with a sample that is farther from the texels' robust range of values than that is
 /// wide.

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "onmesh/filter/options.h"
+
 namespace onmesh {
 
 void make_uvs_local(const std::vector<TextureTile>& tiles, const std::vector<Index>& tile_of_face,

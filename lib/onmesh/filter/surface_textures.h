@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "onmesh/atlas/texel_map.h"
-#include "onmesh/filter/options.h"
 #include "onmesh/image/colour_space.h"
 #include "onmesh/image/image.h"
 #include "onmesh/image/lookup.h"
@@ -14,6 +13,8 @@
 #include "onmesh/mesh/triangle_mesh.h"
 
 namespace onmesh {
+
+struct FilterOptions;  // options.h
 
 /// One of them: that of a material, or a UDIM tile.
 struct TextureTile {
@@ -34,6 +35,15 @@ struct TextureTile {
   const Image* sample_mask = nullptr;
 };
 
+/// Consecutive channels of all tiles, without alpha, that are a map of their own: only they decide
+/// together what is a spike, or how large the noise is.
+struct MapChannels {
+  std::string name;  ///< what guides call it
+  int channels = 0;
+  /// Numbers, of which each channel is judged by itself; else colours, which have a luminance.
+  bool is_data = false;
+};
+
 /// All of them, each with its own size and wrap mode. They are one map: colour flows from one into
 /// the other where their faces meet.
 struct SurfaceTextures {
@@ -41,6 +51,9 @@ struct SurfaceTextures {
   /// Per face of the mesh as given, into tiles; kNone = the face carries no texels. Empty = the
   /// first tile for all faces with UVs.
   std::vector<Index> tile_of_face;
+  /// What the channels are, if they are several maps with the same samples; empty = one map, of
+  /// data if it has less than three channels.
+  std::vector<MapChannels> maps = {};
 
   /// The values of all texels.
   ConstTexelValues values() const {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "onmesh/base/parallel.h"
 #include "onmesh/filter/range_space.h"
@@ -14,44 +15,25 @@
 namespace onmesh {
 namespace {
 
-/// The first tile whose codes are no amounts of light; null if there is none.
-const ColourSpace* some_space(const SurfaceTextures& textures) {
-  for (const TextureTile& tile : textures.tiles)
-    if (tile.space) return tile.space.get();
-  return nullptr;
-}
-
-bool has_features(const FilterOptions& options, const ColourSpace* space) {
-  if (options.kind != FilterKind::bilateral) return false;
-  if (options.filter_alpha) return true;  // sums are of other values
-  switch (options.range_space) {
-    case RangeSpace::code:
-      return space != nullptr;
-    case RangeSpace::linear:
-      return false;
-    default:
-      return true;
-  }
-}
-
-bool needs_conversion(const SurfaceTextures& textures, const FilterOptions& options) {
+bool needs_conversion(const SurfaceTextures& textures, const FilterOptions& options,
+                      const FeatureLayout& layout) {
   const bool others =
       std::any_of(textures.tiles.begin(), textures.tiles.end(),
                   [](const TextureTile& t) { return t.premultiplied || t.sample_mask != nullptr; });
-  return some_space(textures) != nullptr || others || options.filter_alpha ||
-         has_features(options, nullptr);
+  return some_space(textures) != nullptr || others || options.filter_alpha || layout.features > 0 ||
+         options.despike > 0 || options.iterations > 1;
 }
 
 /// What a texel has in WorkingValues: features, what is summed, straight colours if that is
 /// something else.
-struct Layout {
+struct Floats {
   int features, summed, straight;
 
-  Layout(const FilterOptions& options, const ColourSpace* space, int channels)
-      : features(has_features(options, space) ? channels : 0),
+  Floats(const FeatureLayout& layout, const FilterOptions& options, int channels)
+      : features(layout.features),
         summed(channels + (options.filter_alpha ? 1 : 0)),
         straight(options.filter_alpha ? channels : 0) {}
-  int floats() const { return features + summed + straight; }
+  int all() const { return features + summed + straight; }
 };
 
 /// Whether they come before all others of a texel.
@@ -59,26 +41,8 @@ bool are_first(const std::vector<int>& channels) {
   return channels.back() == int(channels.size()) - 1;
 }
 
-/// The linear light of every code of an image of 8 or 16 bits; empty if it is no such image.
-std::vector<float> table_of_codes(const TextureTile& tile) {
-  const int levels = levels_of(*tile.image);
-  if (levels == 0 || !tile.space || !tile.space->is_per_channel() || tile.premultiplied) return {};
-  std::vector<float> table;
-  for (int code = 0; code <= levels; ++code) table.push_back(float(code) / float(levels));
-  tile.space->to_linear(table.data(), table.size(), 1);
-  return table;
-}
-
-/// The linear light of a code: by the table if it is one of its levels, as the file's own are.
-float light_of(float code, const std::vector<float>& table, const ColourSpace& space) {
-  const auto levels = float(table.size() - 1);
-  const float level = code * levels;
-  if (level >= 0 && level < float(table.size())) {
-    const auto nearest = std::min(std::size_t(level + 0.5F), table.size() - 1);
-    if (std::abs(level - float(nearest)) <= 2e-7F * levels) return table[nearest];  // rounding
-  }
-  space.to_linear(&code, 1, 1);
-  return code;
+bool are_finite(const float* values, int count) {
+  return std::all_of(values, values + count, [](float v) { return std::isfinite(v); });
 }
 
 }  // namespace
@@ -88,28 +52,32 @@ WorkingValues::WorkingValues(const SurfaceTextures& textures, const TexelMap& ma
     : textures_(textures),
       map_(map),
       options_(options),
+      layout_(textures, options),
       space_(some_space(textures)),
       channels_(textures.tiles[0].image->range_channels()),
       filters_alpha_(options.filter_alpha),
-      is_converted_(!sample_weights.empty() || needs_conversion(textures, options)) {
+      is_converted_(!sample_weights.empty() || needs_conversion(textures, options, layout_)) {
   const Image& first = *textures.tiles[0].image;
   const auto channels = static_cast<int>(channels_.size());
-  const int compared = options.kind == FilterKind::bilateral ? channels : 0;
+  const bool compares = options.kind == FilterKind::bilateral;
   if (!is_converted_ && textures.tiles.size() == 1 && are_first(channels_)) {
-    colours_ = {first.pixels.data(), channels, compared, first.channels, first.width};
+    colours_ = {first.pixels.data(), channels, compares ? channels : 0, first.channels,
+                first.width};
     straight_ = colours_;
   } else {
-    const Layout layout(options, space_, channels);
-    packed_.resize(std::size_t(textures.values().size()) * std::size_t(layout.floats()));
-    colours_ = {packed_.data(),  layout.summed, compared,
-                layout.floats(), first.width,   layout.features};
+    const Floats floats(layout_, options, channels);
+    const int compared = layout_.features > 0 ? layout_.features : channels;
+    packed_.resize(std::size_t(textures.values().size()) * std::size_t(floats.all()));
+    colours_ = {packed_.data(), floats.summed, compares ? compared : 0,
+                floats.all(),   first.width,   floats.features};
     straight_ = colours_;
     straight_.channels = channels;
-    straight_.first_value = layout.floats() - (filters_alpha_ ? channels : layout.summed);
+    straight_.first_value = floats.all() - (filters_alpha_ ? channels : floats.summed);
+    for (const TextureTile& tile : textures.tiles) readers_.emplace_back(tile, channels_);
     convert();
     leave_out(sample_weights);
-    make_features();
-    multiply_with_alpha();
+    find_mean_light();
+    settle();
   }
   straight_.range_channels = 0;
   count_missing();
@@ -118,95 +86,176 @@ WorkingValues::WorkingValues(const SurfaceTextures& textures, const TexelMap& ma
 
 double WorkingValues::memory(const SurfaceTextures& textures, const FilterOptions& options) {
   const std::vector<int> channels = textures.tiles[0].image->range_channels();
-  if (!needs_conversion(textures, options) && textures.tiles.size() == 1 && are_first(channels))
+  const FeatureLayout layout(textures, options);
+  if (!needs_conversion(textures, options, layout) && textures.tiles.size() == 1 &&
+      are_first(channels))
     return 0;
-  const Layout layout(options, some_space(textures), int(channels.size()));
-  return layout.floats() * double(textures.values().size()) * sizeof(float);
+  const Floats floats(layout, options, int(channels.size()));
+  return floats.all() * double(textures.values().size()) * sizeof(float);
 }
 
-/// Straight colours of the filtered channels; their codes before them if there are features.
-void WorkingValues::convert() {
-  const auto channels = channels_.size(), stride = std::size_t(colours_.stride);
-  const auto first_value = std::size_t(straight_.first_value);
-  const bool has_codes = colours_.first_value > 0;
-  float* to = packed_.data();
+/// body(tile, first, texels) for blocks of texels that charts meet: numbers in the tile, whose
+/// first texel has the number `first`.
+template <class Body>
+void WorkingValues::over_texels(const Body& body) const {
+  Index first = 0;
   for (const TextureTile& tile : textures_.tiles) {
-    const Image& image = *tile.image;
-    const auto texels = std::size_t(image.width) * std::size_t(image.height);
-    const std::vector<float> table = table_of_codes(tile);
-    const Coverage* const coverage =
-        map_.coverage.data() + std::size_t(to - packed_.data()) / stride;
-    over_blocks(texels, [&](std::size_t begin, std::size_t end) {
-      if (!table.empty()) {
-        for (std::size_t t = begin; t < end; ++t) {
-          if (coverage[t] == Coverage::none) continue;  // nobody reads those
-          const float* const from = image.texel(Index(t));
-          float* const texel = to + t * stride;
-          for (std::size_t c = 0; c < channels; ++c) {
-            const float code = from[channels_[c]];
-            if (has_codes) texel[c] = code;
-            texel[first_value + c] = light_of(code, table, *tile.space);
-          }
-        }
-        return;
-      }
-      std::vector<float> light((end - begin) * channels);
-      float* at = light.data();
-      for (std::size_t t = begin; t < end; ++t) {
-        const float* const from = image.texel(Index(t));
-        const float alpha = tile.premultiplied ? from[image.alpha_channel] : 1;
-        for (const int c : channels_) *at++ = alpha > 0 ? from[c] / alpha : from[c];
-      }
-      if (has_codes) {
-        for (std::size_t t = begin; t < end; ++t)
-          std::copy_n(&light[(t - begin) * channels], channels, to + t * stride);
-      }
-      if (tile.space) tile.space->to_linear(light.data(), end - begin, int(channels));
+    const auto count = std::size_t(tile.image->width) * std::size_t(tile.image->height);
+    over_blocks(count, [&](std::size_t begin, std::size_t end) {
+      std::vector<Index> texels;
       for (std::size_t t = begin; t < end; ++t)
-        std::copy_n(&light[(t - begin) * channels], channels, to + t * stride + first_value);
+        if (map_.coverage[first + t] != Coverage::none) texels.push_back(Index(t));
+      if (!texels.empty()) body(tile, first, texels);
     });
-    to += texels * stride;
+    first += Index(count);
   }
+}
+
+void WorkingValues::convert() {
+  const std::size_t channels = channels_.size();
+  over_texels([&](const TextureTile& tile, Index first, const std::vector<Index>& texels) {
+    const TileReader& reader = readers_[std::size_t(&tile - textures_.tiles.data())];
+    std::vector<float> codes, light;
+    reader.read(texels, codes, light);
+    for (std::size_t k = 0; k < texels.size(); ++k)
+      put(first + texels[k], &codes[k * channels], &light[k * channels]);
+  });
+}
+
+float* WorkingValues::straight_of(Index texel) {
+  return packed_.data() + std::size_t(texel) * std::size_t(colours_.stride) + straight_.first_value;
+}
+
+void WorkingValues::put(Index texel, const float* codes, const float* straight) {
+  std::copy_n(straight, channels_.size(), straight_of(texel));
+  put_codes(texel, codes);
+}
+
+/// Where they are to be compared.
+void WorkingValues::put_codes(Index texel, const float* codes) {
+  for (const FeatureSlot& slot : layout_.slots)
+    if (slot.is_own())
+      std::copy_n(codes + slot.first_channel, slot.channels, features_of(texel, slot));
+}
+
+bool WorkingValues::is_missing(Index texel) const {
+  return !are_finite(colours_.values_of(texel), colours_.channels);
+}
+
+bool WorkingValues::was_missing(Index texel) const {
+  return !are_finite(straight_.values_of(texel), straight_.channels);
+}
+
+void WorkingValues::read_straight(const std::vector<Index>& texels,
+                                  std::vector<float>& colours) const {
+  colours.clear();
+  if (!is_changed_) {
+    for (const Index t : texels) {
+      const float* const own = straight_.values_of(t);
+      colours.insert(colours.end(), own, own + straight_.channels);
+    }
+    return;
+  }
+  std::vector<float> codes, light;
+  std::vector<Index> own;
+  auto next = texels.begin();
+  for (std::size_t i = 0; i < readers_.size(); ++i) {
+    const TexelTile& tile = map_.tiles[i];
+    own.clear();
+    for (; next != texels.end() && *next < tile.first + tile.size(); ++next)
+      own.push_back(*next - tile.first);
+    if (own.empty()) continue;
+    readers_[i].read(own, codes, light);
+    colours.insert(colours.end(), light.begin(), light.end());
+  }
+}
+
+void WorkingValues::change(const std::vector<Index>& texels, const std::vector<float>& colours) {
+  is_changed_ = true;
+  const std::size_t channels = channels_.size();
+  std::vector<float> codes(channels);
+  for (std::size_t k = 0; k < texels.size(); ++k) {
+    const float* const colour = &colours[k * channels];
+    std::copy_n(colour, channels, codes.begin());
+    const auto next =
+        std::upper_bound(map_.tiles.begin(), map_.tiles.end(), texels[k],
+                         [](Index t, const TexelTile& tile) { return t < tile.first; });
+    const TextureTile& tile = textures_.tiles[std::size_t(next - map_.tiles.begin()) - 1];
+    if (tile.space) tile.space->from_linear(codes.data(), 1, int(channels));
+    put(texels[k], codes.data(), colour);
+  }
+}
+
+void WorkingValues::take_results(const TexelValues& results, bool compared) {
+  is_changed_ = true;
+  const std::size_t channels = channels_.size();
+  const int alpha = results.alpha_channel();
+  if (filters_alpha_) alpha_.resize(results.size());
+  over_texels([&](const TextureTile& tile, Index first, const std::vector<Index>& texels) {
+    std::vector<float> codes;
+    for (const Index t : texels) {
+      const float* const result = results[first + t];
+      for (const int c : channels_) codes.push_back(result[c]);
+      if (filters_alpha_) alpha_[first + t] = result[alpha];
+    }
+    const std::vector<float> light = codes;
+    if (compared && tile.space) tile.space->from_linear(codes.data(), texels.size(), int(channels));
+    for (std::size_t k = 0; k < texels.size(); ++k) {
+      const Index texel = first + texels[k];
+      if (is_missing(texel)) continue;
+      std::copy_n(&light[k * channels], channels, straight_of(texel));
+      if (compared) put_codes(texel, &codes[k * channels]);
+    }
+  });
+}
+
+double WorkingValues::luminance_of(const float* colour, int channels) const {
+  return luminance(colour, channels, to_rec709());
 }
 
 /// Texels that count for nothing have no value.
 void WorkingValues::leave_out(const std::vector<float>& sample_weights) {
   if (sample_weights.empty()) return;
+  const std::vector<float> nothing(channels_.size(), std::numeric_limits<float>::quiet_NaN());
   for (std::size_t t = 0; t < sample_weights.size(); ++t) {
     if (sample_weights[t] > 0 || map_.coverage[t] != Coverage::covered) continue;
     ++left_out_;
-    float* const texel = packed_.data() + t * std::size_t(colours_.stride);
-    std::fill_n(texel, colours_.stride, std::numeric_limits<float>::quiet_NaN());
+    put(Index(t), nothing.data(), nothing.data());
   }
 }
 
-/// What is compared, of the codes that are in its place.
-void WorkingValues::make_features() {
-  if (colours_.first_value == 0 || options_.range_space == RangeSpace::code) return;
-  const auto channels = channels_.size(), stride = std::size_t(colours_.stride);
-  const RangeFeatures features(options_.range_space, int(channels), mean_light(), to_rec709());
-  over_blocks(textures_.values().size(), [&](std::size_t begin, std::size_t end) {
-    std::vector<float> result(channels);
-    for (std::size_t t = begin; t < end; ++t) {
-      if (map_.coverage[t] == Coverage::none) continue;
-      float* const texel = packed_.data() + t * stride;
-      features.of(texel, straight_.values_of(Index(t)), result.data());
-      std::copy_n(result.data(), channels, texel);
-    }
-  });
+Colours WorkingValues::features(const FeatureSlot& slot) const {
+  return {packed_.data() + slot.offset, slot.channels, 0, colours_.stride, colours_.width};
 }
 
-/// What is summed where alpha is.
-void WorkingValues::multiply_with_alpha() {
+void WorkingValues::compare_own() {
+  for (const FeatureSlot& slot : layout_.slots) {
+    if (!slot.is_own() || !slot.is_colour || options_.range_space == RangeSpace::code) continue;
+    const std::size_t map =
+        slot.guide != nullptr && slot.guide->map > 0 ? std::size_t(slot.guide->map) : 0;
+    const double light = mean_light_.empty() ? 1 : mean_light_[map];
+    const RangeFeatures features(options_.range_space, slot.channels, light, to_rec709());
+    over_texels([&](const TextureTile&, Index first, const std::vector<Index>& texels) {
+      std::vector<float> result(std::size_t(slot.channels));
+      for (const Index t : texels) {
+        float* const own = features_of(first + t, slot);
+        features.of(own, straight_.values_of(first + t) + slot.first_channel, result.data());
+        std::copy(result.begin(), result.end(), own);
+      }
+    });
+  }
+}
+
+void WorkingValues::settle() {
   if (!filters_alpha_) return;
   const ConstTexelValues codes = textures_.values();
-  over_blocks(codes.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      if (map_.coverage[t] == Coverage::none) continue;
-      const float alpha = codes[Index(t)][codes.alpha_channel()];
-      const float* const straight = straight_.values_of(Index(t));
+  over_texels([&](const TextureTile&, Index first, const std::vector<Index>& texels) {
+    for (const Index of_tile : texels) {
+      const Index t = first + of_tile;
+      const float alpha = alpha_.empty() ? codes[t][codes.alpha_channel()] : alpha_[t];
+      const float* const straight = straight_.values_of(t);
       float* const summed =
-          packed_.data() + t * std::size_t(colours_.stride) + colours_.first_value;
+          packed_.data() + std::size_t(t) * std::size_t(colours_.stride) + colours_.first_value;
       for (std::size_t c = 0; c < channels_.size(); ++c) summed[c] = straight[c] * alpha;
       // What has no colour has no alpha that counts either.
       summed[channels_.size()] = std::isnan(straight[0]) ? straight[0] : alpha;
@@ -214,14 +263,23 @@ void WorkingValues::multiply_with_alpha() {
   });
 }
 
-/// The log-average of luminance over the surface, of texels that have any.
-double WorkingValues::mean_light() const {
+/// Where something is compared with it.
+void WorkingValues::find_mean_light() {
+  if (options_.despike == 0 && options_.range_space != RangeSpace::log) return;
+  int first = 0;
+  for (const MapChannels& map : maps_of(textures_)) {
+    mean_light_.push_back(mean_light_of(first, map.channels));
+    first += map.channels;
+  }
+}
+
+double WorkingValues::mean_light_of(int first_channel, int channels) const {
   double sum = 0, weight = 0;
   for (Index f = 0; f + 1 < map_.face_offsets.size(); ++f) {
     double logs = 0, count = 0;
     for (Index k = map_.face_offsets[f]; k < map_.face_offsets[f + 1]; ++k) {
       const Index texel = map_.tile_of(f).texel(map_.claims[k]);
-      const double light = luminance(straight_.values_of(texel), straight_.channels, to_rec709());
+      const double light = luminance_of(straight_.values_of(texel) + first_channel, channels);
       if (!(light > 0) || !std::isfinite(light)) continue;
       logs += std::log(light);
       ++count;
@@ -239,10 +297,8 @@ void WorkingValues::count_missing() {
       [&](const tbb::blocked_range<std::size_t>& part, Counts count) {
         for (std::size_t t = part.begin(); t < part.end(); ++t) {
           if (map_.coverage[t] != Coverage::covered) continue;
-          const float* const texel = colours_.of(Index(t));
           ++count[0];
-          count[1] += !std::all_of(texel, texel + colours_.fields(),
-                                   [](float value) { return std::isfinite(value); });
+          count[1] += is_missing(Index(t));
         }
         return count;
       },

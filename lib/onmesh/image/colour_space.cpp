@@ -53,6 +53,55 @@ struct Power {
   }
 };
 
+/// See join_colour_spaces().
+class JoinedSpaces final : public ColourSpace {
+ public:
+  using Parts = std::vector<std::pair<int, std::shared_ptr<const ColourSpace>>>;
+  explicit JoinedSpaces(Parts parts) : ColourSpace("several"), parts_(std::move(parts)) {}
+
+  void to_linear(float* values, std::size_t texels, int channels) const override {
+    convert(values, texels, channels, &ColourSpace::to_linear);
+  }
+  void from_linear(float* values, std::size_t texels, int channels) const override {
+    convert(values, texels, channels, &ColourSpace::from_linear);
+  }
+  bool is_per_channel() const override {
+    return std::all_of(parts_.begin(), parts_.end(), [](const auto& part) {
+      return !part.second || part.second->is_per_channel();
+    });
+  }
+  /// Of the first that has one.
+  const float* to_rec709() const override {
+    for (const auto& [count, space] : parts_)
+      if (space && space->to_rec709() != nullptr) return space->to_rec709();
+    return nullptr;
+  }
+
+ private:
+  using Conversion = void (ColourSpace::*)(float*, std::size_t, int) const;
+
+  void convert(float* values, std::size_t texels, int channels, Conversion conversion) const {
+    std::vector<float> own;
+    int first = 0;
+    for (const auto& [count, space] : parts_) {
+      if (space) {
+        const auto size = std::size_t(count);
+        own.resize(texels * size);
+        float* at = values + first;
+        for (std::size_t t = 0; t < texels; ++t, at += channels)
+          std::copy_n(at, size, &own[t * size]);
+        (space.get()->*conversion)(own.data(), texels, count);
+        at = values + first;
+        for (std::size_t t = 0; t < texels; ++t, at += channels)
+          std::copy_n(&own[t * size], size, at);
+      }
+      first += count;
+    }
+  }
+
+  const Parts parts_;
+};
+
 constexpr Power kSrgb{2.4F, 0.055F, 12.92F, 0.04045F};
 // With so many digits both parts meet (ITU-R BT.2020, which has the same curve).
 constexpr Power kRec709{1 / 0.45F, 0.099296827F, 4.5F, 0.081242858F};
@@ -201,10 +250,18 @@ std::shared_ptr<const ColourSpace> find_colour_space(std::string_view name) {
                    (has_configuration() ? ", and those of $OCIO" : "; $OCIO may name more"));
 }
 
+std::shared_ptr<const ColourSpace> join_colour_spaces(
+    std::vector<std::pair<int, std::shared_ptr<const ColourSpace>>> parts) {
+  if (parts.size() == 1) return parts[0].second;
+  if (std::all_of(parts.begin(), parts.end(), [](const auto& part) { return !part.second; }))
+    return nullptr;
+  return std::make_shared<JoinedSpaces>(std::move(parts));
+}
+
 ColourSpaceChoice choose_colour_space(const Image& image, const ColourSpaceRequest& request) {
   using Role = ColourSpaceRequest::Role;
   const bool is_colour = request.role == Role::colour;
-  if (request.role == Role::data) return {nullptr, "data", "its role", true};
+  if (request.role != Role::unknown && !is_colour) return {nullptr, "data", "its role", true};
   if (!request.name.empty() && !(is_colour && lower_case(request.name) == "data"))
     return named(request.name, "asked for");
   if (request.slot_is_data && !is_colour) return {nullptr, "data", "the glTF slot", false};

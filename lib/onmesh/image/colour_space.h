@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "onmesh/image/image.h"
 
@@ -48,6 +50,13 @@ class ColourSpace {
 /// InputError if it is unknown
 std::shared_ptr<const ColourSpace> find_colour_space(std::string_view name);
 
+/// Some channels in one space, the next in another, and so on: what maps have that are filtered
+/// together.
+/// \param parts how many channels each has; null = codes are light
+/// \return null if all are
+std::shared_ptr<const ColourSpace> join_colour_spaces(
+    std::vector<std::pair<int, std::shared_ptr<const ColourSpace>>> parts);
+
 /// Where a choice of colour space came from.
 struct ColourSpaceChoice {
   std::shared_ptr<const ColourSpace> space;  ///< null: codes are averaged as they are
@@ -60,9 +69,12 @@ struct ColourSpaceChoice {
 struct ColourSpaceRequest {
   /// What a texture is for, as far as it was said.
   enum class Role {
-    unknown,  ///< nothing was said
-    colour,   ///< amounts of light, in whatever space
-    data      ///< numbers
+    unknown,       ///< nothing was said
+    colour,        ///< amounts of light, in whatever space
+    data,          ///< numbers
+    normal_gl,     ///< numbers: normals in tangent space, green upwards
+    normal_dx,     ///< the same with green downwards
+    object_normal  ///< numbers: normals in the object's space
   };
   Role role = Role::unknown;    ///< of the texture
   std::string name;             ///< --colorspace; empty = nothing

@@ -55,6 +55,9 @@ struct KernelInput {
   Colours colours;
   /// Which targets to filter, per slot; null: all. The others' results are left as they are.
   const std::vector<unsigned char>* only = nullptr;
+  /// Targets whose values are not finite get the mean by what is compared of them; else they keep
+  /// their values. (Of the direct sums; without a range term it is always so.)
+  bool fills = false;
 };
 
 /// \param is_source per row (or as many as are given): whether it takes part

@@ -39,6 +39,7 @@ struct TriangleMesh {
   /// Into normals, one per face; kNone = no normal there. Empty if there are none at all.
   std::vector<std::array<Index, 3>> face_normals;
   CoordinatePrecision precision;  ///< of the positions as they were stored
+  bool is_flat = false;           ///< faces without normals are meant to look flat
 
   /// All three corners of the face have a UV.
   bool has_uvs(Index face) const {

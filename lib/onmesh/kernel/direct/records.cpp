@@ -151,8 +151,9 @@ std::vector<unsigned char> choose_targets(const KernelInput& input, const std::v
     for (Index slot = slots[f]; slot < slots[f + 1]; ++slot) {
       if (input.only && !(*input.only)[slot]) continue;
       const Index texel = samples[slot - slots[f]].texel;
+      const int needed = input.fills ? records.range_channels : records.fields;
       if (records.range_channels == 0 ||
-          is_usable(input.colours.of(texel), records.fields, records.usable_scale)) {
+          is_usable(input.colours.of(texel), needed, records.usable_scale)) {
         is_wanted[slot] = 1;
       } else {
         std::copy_n(input.colours.values_of(texel), records.channels,

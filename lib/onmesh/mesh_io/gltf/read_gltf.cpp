@@ -191,6 +191,7 @@ void GltfReader::report_counts() {
 }
 
 TriangleMesh GltfReader::run() {
+  out_.is_flat = true;
   const std::vector<GltfInstance> instances = find_instances(file_);
   std::map<Index, std::size_t> left;  // instances of each mesh
   for (const GltfInstance& instance : instances) ++left[instance.mesh];

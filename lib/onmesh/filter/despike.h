@@ -1,0 +1,33 @@
+// Values that stick out of those around them, taken down before anything is averaged.
+#pragma once
+
+#include <cstdint>
+
+#include "onmesh/distance/backend.h"
+#include "onmesh/filter/working_values.h"
+#include "onmesh/samples/samples.h"
+
+namespace onmesh {
+
+/// What was changed.
+struct DespikeReport {
+  std::uint64_t spikes = 0;  ///< texels, each once
+  /// Means over the surface, of luminance or of all channels of data.
+  double mean_before = 0, mean_after = 0;
+};
+
+/// Take down spikes of all maps.
+///
+/// A texel is judged by the covered texels within three texels (of its own width) along the
+/// surface, if there are six at least; all are judged by what was read. P80 is their 80th
+/// percentile. Colours are a spike if their luminance exceeds K P80 + .001 Lavg, Lavg the
+/// log-average over the surface: they are scaled to the median luminance around. A channel of data
+/// is one if |v - median| exceeds K P80(|neighbour - median|) + .001 of the robust range of values:
+/// it becomes the median. Percentiles between two values are interpolated.
+/// \param factor K, > 0
+/// \param samples what counts as a neighbour, with areas
+/// \param targets who is judged
+DespikeReport despike(const NodeMesh& nodes, const DistanceBackend& backend, const Samples& samples,
+                      const Samples& targets, double factor, WorkingValues& working);
+
+}  // namespace onmesh

@@ -1,0 +1,129 @@
+#include "onmesh/filter/features.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "onmesh/base/parallel.h"
+#include "onmesh/filter/guide_features.h"
+#include "onmesh/filter/noise.h"
+#include "onmesh/filter/patch_loop.h"
+#include "onmesh/filter/results.h"
+#include "onmesh/filter/shared_results.h"
+
+namespace onmesh {
+namespace {
+
+/// Where there is no noise at all, features that differ by more than so much of their extent do
+/// differ.
+constexpr double kNoNoise = 1e-6;
+
+double in_features(const RangeWidth& width, const Colours& features, const TexelMap& map,
+                   double& noise) {
+  if (!width.in_noise) return width.value;
+  noise = noise_of(features, map);
+  return std::max(width.value * noise, kNoNoise * robust_extent(features, map));
+}
+
+/// The mean of features around every target, weighted by distance alone.
+std::vector<float> blurred(const SurfaceWork& work, const Colours& features, double sigma) {
+  PatchWork sums;
+  sums.nodes = &work.nodes;
+  sums.backend = &work.backend;
+  sums.sources = &work.samples.sources;
+  sums.targets = &work.samples.targets();
+  sums.colours = features;
+  sums.kernel = {sigma, 3 * sigma, 0};
+  sums.method = work.options.method;
+  if (sums.method != FilterMethod::direct) {
+    sums.tolerance = work.options.tolerance * robust_extent(features, work.setup.map);
+    sums.hot_faces = hot_faces(features, work.setup.map, work.samples.sources);
+  }
+  const auto channels = std::size_t(features.channels);
+  std::vector<float> means(work.setup.map.coverage.size() * channels);
+  SharedResults shared(work.setup.overlap, work.samples.targets(), channels);
+  const auto write = [&](Index texel, const float* values) {
+    std::copy_n(values, channels, &means[std::size_t(texel) * channels]);
+  };
+  filter_patches(sums,
+                 [&](Index begin, Index end, const float* values) {
+                   shared.store(begin, end, values, [&](Index target, const float* own) {
+                     write(work.samples.targets().samples[target].texel, own);
+                   });
+                 },
+                 {});
+  shared.merge(write);
+  return means;
+}
+
+}  // namespace
+
+Features::Features(const SurfaceWork& work, WorkingValues& working, FilterReport& report)
+    : work_(work), working_(working) {
+  if (work.options.kind != FilterKind::bilateral) return;
+  working.compare_own();
+  add_guides(work.mesh, work.setup, work.options, working, report.warnings);
+  for (const FeatureSlot& slot : working.layout().slots) widths_.push_back(width_of(slot, report));
+  if (widths_.empty()) {
+    Colours values = working.colours();
+    width_ = in_features(work.options.sigma_range, values, work.setup.map, report.noise);
+    report.range_width = width_;
+    return;
+  }
+  width_ = report.range_width = widths_[0];
+  blur(false);
+  scale(false);
+}
+
+void Features::renew() {
+  working_.compare_own();
+  blur(true);
+  scale(true);
+}
+
+double Features::width_of(const FeatureSlot& slot, FilterReport& report) const {
+  const Guide* const guide = slot.guide;
+  if (guide != nullptr && guide->kind == Guide::Kind::surface_position) {
+    return resolve(guide->length, work_.setup.mesh_plan.texel_size,
+                   work_.setup.mesh_plan.diagonal) /
+           work_.setup.unit;
+  }
+  double noise = 0;
+  const RangeWidth& width = guide != nullptr ? guide->width : work_.options.sigma_range;
+  const double result = in_features(width, working_.features(slot), work_.setup.map, noise);
+  if (slot.is_own()) report.noise = noise;
+  return result;
+}
+
+void Features::blur(bool again) {
+  for (const FeatureSlot& slot : working_.layout().slots) {
+    if (slot.guide == nullptr || !slot.guide->blur || (again && !slot.is_own())) continue;
+    const double sigma = resolve(*slot.guide->blur, work_.setup.mesh_plan.texel_size,
+                                 work_.setup.mesh_plan.diagonal) /
+                         work_.setup.unit;
+    const std::vector<float> means = blurred(work_, working_.features(slot), sigma);
+    const auto channels = std::size_t(slot.channels);
+    over_blocks(work_.setup.map.coverage.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t)
+        if (work_.setup.map.coverage[t] == Coverage::covered)
+          std::copy_n(&means[t * channels], channels, working_.features_of(Index(t), slot));
+    });
+    fill_slot(slot, work_.setup.map, working_);
+  }
+}
+
+void Features::scale(bool again) {
+  const auto& slots = working_.layout().slots;
+  for (std::size_t k = 0; k < slots.size(); ++k) {
+    const auto factor = float(width_ / widths_[k]);
+    if (factor == 1 || (again && !slots[k].is_own())) continue;
+    over_blocks(work_.setup.map.coverage.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
+        if (work_.setup.map.coverage[t] == Coverage::none) continue;
+        float* const own = working_.features_of(Index(t), slots[k]);
+        for (int c = 0; c < slots[k].channels; ++c) own[c] *= factor;
+      }
+    });
+  }
+}
+
+}  // namespace onmesh

@@ -1,0 +1,51 @@
+// What range weights compare, made ready for the sums.
+#pragma once
+
+#include <vector>
+
+#include "onmesh/distance/backend.h"
+#include "onmesh/filter/draw_samples.h"
+#include "onmesh/filter/report.h"
+#include "onmesh/filter/setup.h"
+#include "onmesh/filter/working_values.h"
+
+namespace onmesh {
+
+/// What passes over the surface need.
+struct SurfaceWork {
+  const TriangleMesh& mesh;         ///< as given
+  const SurfaceTextures& textures;  ///< the same
+  const FilterSetup& setup;
+  const FilterOptions& options;
+  const NodeMesh& nodes;
+  const DistanceBackend& backend;
+  const FilterSamples& samples;
+};
+
+/// The features of a run: in range space, blurred, and scaled so that one width serves all.
+class Features {
+ public:
+  /// Make them from the values as they are now.
+  /// \pre all outlive this
+  /// \param report receives noise, widths and warnings
+  Features(const SurfaceWork& work, WorkingValues& working, FilterReport& report);
+
+  /// Make those of own values again, after WorkingValues::take_results().
+  void renew();
+
+  /// Standard deviation of the weight by the features' differences; 0 without range weights.
+  double width() const { return width_; }
+
+ private:
+  /// \param again only those of own values
+  void blur(bool again);
+  void scale(bool again);
+  double width_of(const FeatureSlot& slot, FilterReport& report) const;
+
+  const SurfaceWork work_;
+  WorkingValues& working_;
+  std::vector<double> widths_;  ///< per slot
+  double width_ = 0;
+};
+
+}  // namespace onmesh
