@@ -87,8 +87,9 @@ std::vector<double> filtered_value(const TexelPoints& all, const Neighbourhood& 
   const float* const own_values = texture.texel(own);
   std::vector<double> value(own_values, own_values + texture.channels);
   if (alpha_of(texture, own) == 0) return value;
-  const bool is_compared =
-      weights.sigma_range > 0 && is_usable(texture, own) && sample_weight(weights, own) > 0;
+  const bool has_value = is_usable(texture, own) && sample_weight(weights, own) > 0;
+  const bool is_compared = weights.sigma_range > 0 && has_value;
+  const std::size_t compared = weights.features_each - (has_value ? 0 : weights.own_features);
   std::vector<double> sum(value.size(), 0);
   double total = 0;
   for (std::size_t k = 0; k < around.near.size(); ++k) {
@@ -100,6 +101,11 @@ std::vector<double> filtered_value(const TexelPoints& all, const Neighbourhood& 
     if (is_compared) {
       exponent += squared_colour_distance(texture, own, all.texels[y]) /
                   (2 * weights.sigma_range * weights.sigma_range);
+    }
+    for (std::size_t f = 0; f < compared; ++f) {
+      const double apart = double(weights.features[own * weights.features_each + f]) -
+                           weights.features[all.texels[y] * weights.features_each + f];
+      exponent += apart * apart / 2;
     }
     const double w = all.areas[y] * std::max(alpha_of(texture, all.texels[y]), 0.0) *
                      sample_weight(weights, all.texels[y]) * std::exp(-exponent);

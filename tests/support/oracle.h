@@ -48,6 +48,11 @@ struct Weights {
   double sigma_range = 0;        ///< value units; 0: no colour weight, that is the Gaussian filter
   /// Per texel, how much it counts as a sample; texels of 0 have no value. Empty: all 1.
   std::vector<float> of_samples = {};
+  /// Features of guides, each divided by its width: so many for each texel, side by side.
+  std::vector<float> features = {};
+  std::size_t features_each = 0;
+  /// So many of the last are of own values: targets without a value are not compared by them.
+  std::size_t own_features = 0;
 };
 
 /// The filter's value at the neighbourhood's centre, one number per channel. Alpha stays; it is the

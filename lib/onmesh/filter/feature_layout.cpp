@@ -9,6 +9,7 @@ namespace {
 bool has_own_features(const SurfaceTextures& textures, const FilterOptions& options) {
   if (options.kind != FilterKind::bilateral) return false;
   if (options.filter_alpha) return true;
+  if (options.iterations > 1 && !options.guides_from_result) return true;
   switch (options.range_space) {
     case RangeSpace::code:
       return some_space(textures) != nullptr;
