@@ -1,14 +1,12 @@
 // onmesh compare: how two textures differ, and how visible their seams are.
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "atlas.h"
 #include "compare_gltf.h"
+#include "comparison.h"
 #include "format.h"
 #include "interruption.h"
 #include "messages.h"
@@ -16,11 +14,7 @@
 #include "onmesh/base/text.h"
 #include "onmesh/image/image_io.h"
 #include "onmesh/image/lookup.h"
-#include "onmesh/measure/image_difference.h"
-#include "onmesh/measure/light_difference.h"
-#include "onmesh/measure/seam_error.h"
 #include "onmesh/mesh_io/write_gltf.h"
-#include "report.h"
 #include "shared_options.h"
 #include "subcommands.h"
 #include "texture_set.h"
@@ -36,7 +30,8 @@ Command compare_command() {
       "Measures how two textures of one size differ, or two sets of them: folders, names with\n"
       "<UDIM>, or glTF files, compared image by image. With their mesh only the texels that its\n"
       "charts cover count, and the seam error of both is measured: the difference of bilinear\n"
-      "look-ups on both sides of every seam edge, also between textures.";
+      "look-ups on both sides of every seam edge, also between textures. How A's steps from side\n"
+      "to side differ from B's is compared with the same at edges within charts, apart for folds.";
   command.examples =
       "  onmesh compare cube.png filtered.png\n"
       "  onmesh compare cube.png filtered.png --mesh cube.obj --json\n"
@@ -77,11 +72,6 @@ void require_like(const Image& image, const std::string& path, const Image& like
     throw InputError(path + ": " + size(image) + " cannot be compared with " + first + ": " +
                      size(like));
 }
-
-/// Two files that are compared.
-struct Pair {
-  std::filesystem::path a, b;
-};
 
 /// The files of a folder, or of a name with a placeholder for the tile.
 std::vector<std::filesystem::path> files_of(const std::string& name) {
@@ -167,24 +157,6 @@ TextureSet set_of_mesh(const TriangleMesh& mesh, std::vector<Pair>& pairs,
   return set;
 }
 
-struct Comparison {
-  std::string mesh;  ///< if there is one
-  std::vector<Pair> pairs;
-  std::vector<Image> a, b;             ///< per pair
-  std::vector<Image> masks;            ///< the same, or none at all
-  std::vector<ImageDifference> parts;  ///< per pair
-  std::vector<LightDifference> light;  ///< the same in linear light
-  ImageDifference all;
-  LightDifference all_light;
-  std::size_t worst = 0;                      ///< pair with the largest difference
-  std::optional<SeamError> seams_a, seams_b;  ///< with a mesh
-
-  int width() const { return a[worst].width; }
-  std::string worst_file() const {
-    return pairs.size() == 1 ? "" : " of " + pairs[worst].b.filename().string();
-  }
-};
-
 /// Texels that a mask shows, without a mesh: looked up bilinearly.
 std::vector<unsigned char> shown_texels(const Image& mask, const Image& like) {
   std::vector<unsigned char> shown(std::size_t(like.width) * std::size_t(like.height));
@@ -256,6 +228,10 @@ void compare_on_mesh(const Arguments& arguments, const InputMesh& input, Texture
     }
     result.seams_a = seam_error(mesh, map, a);
     result.seams_b = seam_error(mesh, map, b);
+    std::vector<bool> all_counted;
+    for (const auto& of_tile : counted)
+      for (const unsigned char c : of_tile) all_counted.push_back(c != 0);
+    result.residual = seam_residual(mesh, map, a, b, all_counted);
     return 0;
   });
 }
@@ -360,93 +336,6 @@ Comparison compare(const Arguments& arguments) {
   put_together(result);
   check_interrupted();
   return result;
-}
-
-nlohmann::json difference_json(const ImageDifference& d, int width) {
-  return {{"texels", d.texels},
-          {"equal", d.max == 0},
-          {"psnr", d.psnr},
-          {"rms", d.rms},
-          {"max", d.max},
-          {"worst_texel", {d.worst_texel % Index(width), d.worst_texel / Index(width)}}};
-}
-
-nlohmann::json light_json(const LightDifference& light) {
-  const auto error = [](const LightError& e) {
-    return nlohmann::json{{"rel_mse", e.rel_mse}, {"log_psnr", e.log_psnr}};
-  };
-  nlohmann::json json = error(light.colour);
-  json["alpha"] = light.alpha ? error(*light.alpha) : nlohmann::json();
-  return json;
-}
-
-void print_json(const Arguments& arguments, const Comparison& result, std::optional<double> least,
-                bool passed) {
-  const auto seams = [](const std::optional<SeamError>& s) {
-    return s ? to_json(*s) : nlohmann::json();
-  };
-  nlohmann::json json = new_report("compare");
-  json["a"] = arguments.argument("a");
-  json["b"] = arguments.argument("b");
-  json["mesh"] = text_or_null(result.mesh);
-  json["width"] = result.a[0].width;
-  json["height"] = result.a[0].height;
-  json["channels"] = result.a[0].channels;
-  json.update(difference_json(result.all, result.width()));
-  json["light"] = light_json(result.all_light);
-  json["files"] = nlohmann::json::array();
-  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
-    nlohmann::json file = difference_json(result.parts[i], result.a[i].width);
-    file["light"] = light_json(result.light[i]);
-    file["a"] = result.pairs[i].a.string();
-    file["b"] = result.pairs[i].b.string();
-    json["files"].push_back(std::move(file));
-  }
-  json["seams_a"] = seams(result.seams_a);
-  json["seams_b"] = seams(result.seams_b);
-  json["fail"] = least ? nlohmann::json(*least) : nlohmann::json();
-  json["passed"] = passed;
-  print_report(std::move(json));
-}
-
-void row(const std::string& name, const std::string& value) {
-  std::cout << std::left << std::setw(14) << name << value << '\n';
-}
-
-void seam_row(const char* name, const std::optional<SeamError>& s) {
-  if (!s) return;
-  row(name, "rms " + format_number(s->rms) + ", max " + format_number(s->max) + " over " +
-                format_count(s->edges) + " edges");
-}
-
-std::string decibels_text(double psnr) {
-  return std::isfinite(psnr) ? format_number(psnr) + " dB" : "infinite, all are equal";
-}
-
-std::string psnr_text(const ImageDifference& d) { return decibels_text(d.psnr); }
-
-void light_rows(const std::string& of, const LightError& error) {
-  row(of + "relMSE", format_number(error.rel_mse));
-  row(of + "logPSNR", decibels_text(error.log_psnr));
-}
-
-void print_text(const Comparison& result) {
-  const ImageDifference& d = result.all;
-  for (std::size_t i = 0; result.pairs.size() > 1 && i < result.pairs.size(); ++i)
-    row(result.pairs[i].b.filename().string() + "  ", psnr_text(result.parts[i]));
-  row("texels", format_count(d.texels));
-  row("PSNR", psnr_text(d));
-  row("rms error", format_number(d.rms));
-  std::string worst = format_number(d.max);
-  if (d.max > 0) {
-    worst += " at column " + std::to_string(d.worst_texel % Index(result.width())) + ", row " +
-             std::to_string(d.worst_texel / Index(result.width())) + result.worst_file();
-  }
-  row("max error", worst);
-  light_rows("", result.all_light.colour);
-  if (result.all_light.alpha) light_rows("alpha ", *result.all_light.alpha);
-  seam_row("seams of A", result.seams_a);
-  seam_row("seams of B", result.seams_b);
 }
 
 }  // namespace

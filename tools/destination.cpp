@@ -51,7 +51,7 @@ Destination::Destination(const Arguments& arguments, const std::string& output,
                          const SurfaceInputs& inputs)
     : output_(output) {
   if (is_gltf()) {
-    results_ = name_gltf_outputs(inputs.set, inputs.mesh, inputs.mesh_path, output);
+    results_ = name_gltf_outputs(inputs.set, inputs.meshes(), inputs.mesh_path, output);
   } else if (!output.empty()) {
     results_ = name_outputs(inputs.set, output);
   }

@@ -67,16 +67,21 @@ Command filter_command() {
   add("sigma-spatial", text("4tx"), "length: width of the filter on the surface");
   add("sigma-range", text("0.1"),
       "bilateral: width of the filter in colour differences; values run from 0 to 1 (or 25/255); "
-      "2n = twice the noise");
+      "2n = twice the noise (by its median, 2m by its mean, 9n^2 = 9 times its square)");
   add_range_space_option(command.options);
   add("guide", texts(),
       "NAME[@ROLE][@uvN][:blur=LENGTH]:S, may be given several times: compare this instead of "
-      "values, S as --sigma-range. NAME is self (values, blurred perhaps), surface-normal, "
+      "values, S as --sigma-range (median=LENGTH for a median instead of a blur). NAME is self "
+      "(values, blurred perhaps), surface-normal, "
       "surface-position (S is a length), a map given by -t MAP=FILE, or an image; none = blur. "
       "Roles of images: @data, @colour, @normal-gl, @normal-dx, @object-normal");
   add("despike", text(),
       "K: take down values K times as bright as (numbers: K times as far off as) four in five of "
       "those within three texels, before all else");
+  add("despike-to", text("median"),
+      "median or limit: what colours that are spikes come down to: the median around them, or what "
+      "they may be at most");
+  add("keep-mean", flag(), "scale results to the mean over the surface of what was summed");
   add("iterations", text("1"), "how often: each time of the last result");
   add("guides-from", text("input"),
       "input or result: whether iterations compare what was read or the last result");
@@ -134,6 +139,8 @@ void refuse_ignored(const Arguments& arguments, const FilterOptions& options) {
       throw UsageError("--guide: only with --kind bilateral");
     for (const std::string& guide : arguments.texts("guide")) parse_guide(guide);
   }
+  if (arguments.given("despike-to") && !arguments.has("despike"))
+    throw UsageError("--despike-to: only with --despike");
   if (arguments.given("guides-from") && arguments.text("iterations") == "1")
     throw UsageError("--guides-from: only with --iterations of 2 or more");
   if (options.method == FilterMethod::direct && arguments.given("tolerance")) {
@@ -167,6 +174,9 @@ FilterOptions filter_options(const Arguments& arguments) {
   options.sigma_spatial = arguments.length("sigma-spatial");
   options.sigma_range = arguments.width("sigma-range");
   if (arguments.has("despike")) options.despike = arguments.number("despike", 1, 1e6);
+  options.despike_to_limit =
+      arguments.choice<bool>("despike-to", {{"median", false}, {"limit", true}});
+  options.keep_mean = arguments.flag("keep-mean");
   options.iterations = int(arguments.integer("iterations", 1, 100));
   options.guides_from_result =
       arguments.choice<bool>("guides-from", {{"input", false}, {"result", true}});
@@ -197,7 +207,7 @@ std::vector<SurfaceMap> library_maps(const SurfaceInputs& inputs) {
     SurfaceMap& out = maps.emplace_back();
     out.name = map.name;
     out.textures = inputs.textures(m);
-    out.mesh = map.mesh.get();
+    if (map.has_own_uvs) out.mesh = map.mesh.get();
     out.is_filtered = map.is_filtered;
     if (!map.is_filtered)
       out.meaning =

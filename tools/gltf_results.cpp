@@ -13,7 +13,7 @@ namespace onmesh::tools {
 
 namespace fs = std::filesystem;
 
-OutputNames name_gltf_outputs(const TextureSet& set, const TriangleMesh& mesh,
+OutputNames name_gltf_outputs(const TextureSet& set, const std::vector<const TriangleMesh*>& meshes,
                               const std::string& mesh_path, const std::string& output) {
   const auto extension = [](const std::string& path) {
     return lower_case(fs::path(path).extension().string());
@@ -34,9 +34,11 @@ OutputNames name_gltf_outputs(const TextureSet& set, const TriangleMesh& mesh,
   for (std::size_t i = 0; i < set.textures.size(); ++i) {
     const SetTexture& texture = set.textures[i];
     if (!texture.is_written) continue;
-    const bool is_own = std::any_of(
-        mesh.materials.begin(), mesh.materials.end(),
-        [&](const Material& material) { return texture.path == fs::path(material.texture); });
+    const bool is_own = std::any_of(meshes.begin(), meshes.end(), [&](const TriangleMesh* mesh) {
+      return std::any_of(
+          mesh->materials.begin(), mesh->materials.end(),
+          [&](const Material& material) { return texture.path == fs::path(material.texture); });
+    });
     if (!is_own) {
       throw UsageError("--output: " + texture.path.string() + " is no image of " + mesh_path +
                        "; without -t its own are filtered, and -o may name an image");

@@ -13,9 +13,10 @@
 namespace onmesh::tools {
 
 /// The outputs of a set whose results go into a glTF file.
+/// \param meshes as read, with the materials' textures of all slots
 /// \throw UsageError if the mesh is none of that kind, or the textures are not its own
 /// \throw FileError if the file cannot be written
-OutputNames name_gltf_outputs(const TextureSet& set, const TriangleMesh& mesh,
+OutputNames name_gltf_outputs(const TextureSet& set, const std::vector<const TriangleMesh*>& meshes,
                               const std::string& mesh_path, const std::string& output);
 
 /// Write the results that changed in the place of the images they were made of. An image without a

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <string_view>
+#include <utility>
 
 #include "atlas.h"
 #include "command.h"
@@ -122,10 +124,12 @@ GuideRequest parse_guide(const std::string& text) {
     throw bad_guide(text, "is not NAME:S, such as surface-normal:0.25, or none");
   guide.width = text.substr(colon + 1);
   std::string name = text.substr(0, colon);
-  const std::size_t blur = name.rfind(":blur=");
-  if (blur != std::string::npos) {
-    guide.blur = parse_length("guide", name.substr(blur + 6));
-    name.erase(blur);
+  for (const auto& [key, length] :
+       {std::pair(":blur=", &guide.blur), std::pair(":median=", &guide.median)}) {
+    const std::size_t at = name.rfind(key);
+    if (at == std::string::npos) continue;
+    *length = parse_length("guide", name.substr(at + std::string_view(key).size()));
+    name.erase(at);
   }
   guide.uv_set = take_uv_set(name);
   const NamedTexture named = split_role(name, "guide");
@@ -133,7 +137,8 @@ GuideRequest parse_guide(const std::string& text) {
   guide.role = named.role;
   if (!guide.uv_set) guide.uv_set = take_uv_set(guide.name);
   if (guide.name.empty()) throw bad_guide(text, "has no name");
-  if (guide.width.rfind("blur=", 0) == 0) throw bad_guide(text, "has no width behind the blur");
+  if (guide.width.rfind("blur=", 0) == 0 || guide.width.rfind("median=", 0) == 0)
+    throw bad_guide(text, "has no width at its end");
   if (is_reserved_guide(guide.name) && (guide.role != Role::unknown || guide.uv_set))
     throw bad_guide(text, guide.name + " is no image: it has neither role nor UVs");
   return guide;
@@ -149,6 +154,7 @@ void read_guides(const Arguments& arguments, SurfaceInputs& inputs) {
     InputGuide& guide = inputs.guides.emplace_back();
     guide.guide.name = wanted.name;
     guide.guide.blur = wanted.blur;
+    guide.guide.median = wanted.median;
     if (wanted.name == "none") {
       if (texts.size() > 1) throw bad_guide(text, "excludes other guides");
       guide.is_off = true;

@@ -16,11 +16,11 @@ struct GuideRequest {
   std::string name;  ///< "self", "surface-normal", "surface-position", a map or a file
   Role role = Role::unknown;
   std::optional<std::uint64_t> uv_set;
-  std::optional<Length> blur;
+  std::optional<Length> blur, median;
   std::string width;
 };
 
-/// Reads NAME[@ROLE][@uvN][:blur=LENGTH]:S.
+/// Reads NAME[@ROLE][@uvN][:blur=LENGTH]:S; median may stand for blur.
 /// \throw UsageError naming what is wrong
 GuideRequest parse_guide(const std::string& text);
 

@@ -9,16 +9,21 @@ const std::vector<Preset>& presets() {
       {"lightmap",
        "noisy light maps",
        false,
-       {{"sigma-spatial", "2.5tx"},
+       {{"sigma-spatial", "4tx"},
         {"range-space", "log"},
-        {"despike", "2.5"},
-        {"guide", "self:blur=1tx:0.2"},
-        {"guide", "surface-normal:0.25"}}},
+        {"despike", "4"},
+        {"despike-to", "limit"},
+        {"keep-mean", "true"},
+        {"guide", "self:blur=1.5tx:2n"},
+        {"guide", "self:median=1.5tx:2.5n"},
+        {"guide", "self:1800n^3"},
+        {"guide", "surface-normal:0.3"}}},
       {"ao",
        "noisy ambient occlusion and other numbers",
        true,
        {{"sigma-spatial", "4tx"},
-        {"guide", "self:blur=3tx:0.05"},
+        {"guide", "self:blur=3tx:0.4m"},
+        {"guide", "self:20m^1.5"},
         {"guide", "surface-normal:0.35"}}},
       {"scan", "photo textures of scans", false, {{"sigma-spatial", "3tx"}, {"guide", "self:2n"}}},
       {"blur", "an even blur without seams", false, {{"kind", "gaussian"}}},
@@ -55,6 +60,7 @@ std::string text_of(const Preset& preset) {
   for (const PresetOption& option : preset.options) {
     if (!text.empty()) text += ' ';
     text += dashed(option.name);
+    if (option.value == std::string("true")) continue;
     text += ' ';
     text += option.value;
   }

@@ -160,8 +160,15 @@ std::vector<MapRequest> requested_maps(const Arguments& arguments) {
   return maps;
 }
 
+/// Also how textures are read beyond [0,1].
 bool have_same_uvs(const TriangleMesh& a, const TriangleMesh& b) {
-  return a.face_uvs == b.face_uvs && a.uvs == b.uvs;
+  const auto same_wrap = [](const Material& x, const Material& y) {
+    const WrapModes one = x.wrap.value_or(WrapModes()), other = y.wrap.value_or(WrapModes());
+    return x.wrap.has_value() == y.wrap.has_value() && one.u == other.u && one.v == other.v;
+  };
+  return a.face_uvs == b.face_uvs && a.uvs == b.uvs &&
+         std::equal(a.materials.begin(), a.materials.end(), b.materials.begin(), b.materials.end(),
+                    same_wrap);
 }
 
 /// Choose the textures of a map and put them behind those that are there.
@@ -193,7 +200,7 @@ bool add_map(const Arguments& arguments, const MapRequest& wanted, const Texture
   map.tile_of_face = set.tile_of_face;
   map.role = set.textures[0].role;
   map.is_filtered = map.slot != TextureSlot::normal && !is_normal(map.role);
-  if (map.mesh && have_same_uvs(*map.mesh, inputs.mesh)) map.mesh = nullptr;
+  map.has_own_uvs = map.mesh && !have_same_uvs(*map.mesh, inputs.mesh);
   for (SetTexture& texture : set.textures) {
     texture.map = map.name;
     texture.is_written &= map.is_filtered;
@@ -236,6 +243,12 @@ SurfaceTextures SurfaceInputs::textures(std::size_t number) const {
   textures.maps = {
       {map.name, int(first.range_channels().size()), spaces[map.first].name == "data"}};
   return textures;
+}
+
+std::vector<const TriangleMesh*> SurfaceInputs::meshes() const {
+  std::vector<const TriangleMesh*> all;
+  for (const InputMap& map : maps) all.push_back(&mesh_of(map));
+  return all;
 }
 
 std::vector<Image> SurfaceInputs::whole_images(std::vector<std::vector<Image>> parts) const {

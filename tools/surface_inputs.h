@@ -24,8 +24,9 @@ struct InputMap {
   std::string name;  ///< as -t or the glTF slot has it; empty if it is the only one
   std::size_t first = 0, count = 0;
   TextureSlot slot = TextureSlot::base_colour;
-  /// With the map's UVs; null: the mesh itself.
+  /// With the materials and UVs of the map's slot; null: the mesh itself.
   std::shared_ptr<const TriangleMesh> mesh = nullptr;
+  bool has_own_uvs = false;         ///< others than the mesh, or read differently
   std::vector<Index> tile_of_face;  ///< counted from the first of them
   Role role = Role::unknown;        ///< of its textures
   bool is_filtered = true;          ///< else it may be a guide, and stays as it is
@@ -57,6 +58,8 @@ struct SurfaceInputs {
   /// What the library takes of a map. Refers to images and masks.
   SurfaceTextures textures(std::size_t map = 0) const;
   const TriangleMesh& mesh_of(const InputMap& map) const { return map.mesh ? *map.mesh : mesh; }
+  /// Those of all maps.
+  std::vector<const TriangleMesh*> meshes() const;
   /// The results of what is filtered as whole textures; channels that were left out, and maps that
   /// are not filtered, are as they were. An image that several maps share has them all.
   /// \param parts per filtered map and texture

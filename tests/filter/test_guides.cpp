@@ -253,7 +253,7 @@ TEST_CASE("the noise of features is their deviation, whatever they rise to", "[g
   CHECK(noise_of(colours, map) == Approx(0.05 * std::sqrt(5.0 / 3)).epsilon(0.02));
   // A width of 2n is that many.
   FilterOptions options = some_options();
-  options.sigma_range = RangeWidth(2, true);
+  options.sigma_range = RangeWidth(2, RangeWidth::Unit::noise);
   FilterReport report;
   const Image by_noise = filter(make_plane(1, 1), image, options, &report);
   CHECK(report.noise == Approx(0.05 * std::sqrt(5.0 / 3)).epsilon(0.02));

@@ -27,7 +27,10 @@ void check_between(const char* option, double value, double least, double larges
 
 /// Multiples of noise, or widths whose squares hold.
 void check_width(const char* option, const RangeWidth& width) {
-  if (width.in_noise) return require_within(option, width.value, 1e-3, 1e3, " n");
+  if (width.unit != RangeWidth::Unit::feature) {
+    require_within(option, width.value, 1e-6, 1e6, " of the noise");
+    return require_within(option, width.power, 0.1, 10, " as a power of the noise");
+  }
   require_within(option, width.value, kLeastValue, kLargestValue);
 }
 
@@ -38,7 +41,9 @@ void check_guide(const Guide& guide) {
   } else {
     check_width(option.c_str(), guide.width);
   }
-  if (guide.blur) require_positive(option.c_str(), guide.blur->value);
+  if (guide.blur && guide.median) throw OptionError(option, "is blurred or a median, not both");
+  for (const auto& length : {guide.blur, guide.median})
+    if (length) require_positive(option.c_str(), length->value);
 }
 
 void check_numbers(const FilterOptions& options) {

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "onmesh/base/parallel.h"
-#include "onmesh/filter/patch_tables.h"
+#include "onmesh/filter/near_texels.h"
+#include "onmesh/filter/percentile.h"
 #include "onmesh/filter/range_space.h"
 #include "onmesh/filter/results.h"
-#include "onmesh/kernel/near_samples.h"
 
 namespace onmesh {
 namespace {
@@ -19,24 +21,6 @@ constexpr std::size_t kEnough = 6;
 constexpr double kPercentile = 0.8;
 /// Shares of the log-average, or of the range of values, that nobody sees.
 constexpr double kNegligible = 1e-3;
-/// On regular grids many pairs tie at the radius.
-constexpr double kSlack = 1 + 1e-3;
-/// Targets of a patch.
-constexpr double kTargets = 16384;
-
-/// The value that a share of them is not above, between neighbours linearly; reorders them.
-/// \pre there are some
-float percentile(std::vector<float>& values, double share) {
-  const double at = share * double(values.size() - 1);
-  const auto low = std::size_t(at);
-  const auto middle = values.begin() + std::ptrdiff_t(low);
-  std::nth_element(values.begin(), middle, values.end());
-  const float below = *middle;
-  if (low + 1 == values.size()) return below;
-  const float above = *std::min_element(middle + 1, values.end());
-  return below + float(at - double(low)) * (above - below);
-}
-
 /// One of maps_of(), with what its values are measured by.
 struct JudgedMap {
   int first_channel, channels;
@@ -47,8 +31,11 @@ struct JudgedMap {
 /// Judges the texels of one map.
 class Judge {
  public:
-  Judge(const JudgedMap& map, double factor, const WorkingValues& working)
-      : map_(map), factor_(float(factor)), straight_(working.straight()) {
+  Judge(const JudgedMap& map, const DespikeOptions& options, const WorkingValues& working)
+      : map_(map),
+        factor_(float(options.factor)),
+        to_limit_(options.to_limit),
+        straight_(working.straight()) {
     if (map.is_data) return;
     luminance_.resize(working.map().coverage.size());
     over_blocks(luminance_.size(), [&](std::size_t begin, std::size_t end) {
@@ -98,8 +85,9 @@ class Judge {
     values.clear();
     for (const Index t : around)
       if (std::isfinite(luminance_[t])) values.push_back(luminance_[t]);
-    if (!(own > factor_ * percentile(values, kPercentile) + float(map_.negligible))) return false;
-    const float scale = std::max(percentile(values, 0.5), 0.F) / own;
+    const float limit = factor_ * percentile(values, kPercentile) + float(map_.negligible);
+    if (!(own > limit)) return false;
+    const float scale = std::max(to_limit_ ? limit : percentile(values, 0.5), 0.F) / own;
     for (int c = 0; c < map_.channels; ++c) colour[map_.first_channel + c] *= scale;
     return true;
   }
@@ -128,11 +116,12 @@ class Judge {
 
   JudgedMap map_;
   float factor_;
+  bool to_limit_;
   Colours straight_;
   LargeArray<float> luminance_;  ///< of colours
 };
 
-std::vector<Judge> make_judges(const WorkingValues& working, double factor) {
+std::vector<Judge> make_judges(const WorkingValues& working, const DespikeOptions& options) {
   std::vector<Judge> judges;
   const std::vector<MapChannels> maps = maps_of(working.textures());
   const ConstTexelValues codes = working.textures().values();
@@ -143,108 +132,90 @@ std::vector<Judge> make_judges(const WorkingValues& working, double factor) {
     const double size =
         maps[m].is_data ? robust_extent(codes, channels, working.map()) : working.mean_light(m);
     judges.emplace_back(JudgedMap{first, maps[m].channels, maps[m].is_data, kNegligible * size},
-                        factor, working);
+                        options, working);
     first += maps[m].channels;
   }
   return judges;
 }
 
-/// Texels that were found to be spikes, and what they become.
-struct Spikes {
-  std::vector<Index> texels;
-  std::vector<float> colours;
+/// A texel that sticks out, and what it becomes.
+struct Spike {
+  Index target, texel;
+  std::vector<float> colour;
 };
 
-/// Per patch, so that they do not depend on the threads.
-std::vector<Spikes> find_spikes(const NodeMesh& nodes, const DistanceBackend& backend,
-                                const Samples& samples, const Samples& targets,
-                                const std::vector<Judge>& judges, const WorkingValues& working) {
-  const auto radius_of = [](const Sample& s) { return kReach * std::sqrt(double(s.area)); };
-  std::vector<double> targets_of_face(nodes.faces.size());
-  for (Index f = 0; f < targets_of_face.size(); ++f)
-    targets_of_face[f] = targets.face_offsets[f + 1] - targets.face_offsets[f];
-  const std::vector<std::vector<Index>> cores = make_cores(nodes, targets_of_face, kTargets);
-  const std::vector<double> extents = extents_for(nodes, backend);
+/// In the order of targets; of a texel in several places the first one decides.
+std::vector<Spike> find_spikes(const NodeMesh& nodes, const DistanceBackend& backend,
+                               const Samples& samples, const Samples& targets,
+                               const std::vector<Judge>& judges, const WorkingValues& working) {
   struct Thread {
-    PatchTables tables;
-    NearSamples near;
     std::vector<float> values, colour;
+    std::vector<Spike> spikes;
   };
-  tbb::enumerable_thread_specific<Thread> threads([&] {
-    return Thread{PatchTables(nodes, backend, extents), {}, {}, {}};
-  });
-  std::vector<Spikes> found(cores.size());
+  tbb::enumerable_thread_specific<Thread> threads;
   const std::size_t channels = working.channels().size();
-  tbb::parallel_for(std::size_t(0), cores.size(), [&](std::size_t k) {
-    Thread& own = threads.local();
-    double reach = 0;
-    for (const Index f : cores[k])
-      for (Index s = targets.face_offsets[f]; s < targets.face_offsets[f + 1]; ++s)
-        reach = std::max(reach, radius_of(targets.samples[s]));
-    if (!(reach > 0)) return;
-    PatchTables::Counts counts;
-    const auto judge_target = [&](const Sample& target, std::span<const Index> around) {
-      const float* const read = working.straight().values_of(target.texel);
-      own.colour.assign(read, read + channels);
-      bool changed = false;
-      for (const Judge& judge : judges)
-        changed |= judge.changes(target.texel, around, own.values, own.colour.data());
-      if (!changed) return;
-      found[k].texels.push_back(target.texel);
-      found[k].colours.insert(found[k].colours.end(), own.colour.begin(), own.colour.end());
-    };
-    const auto judge_patch = [&](const Patch& patch, const DistanceTable& table) {
-      const KernelInput input{&patch, &table, &samples, &targets, working.straight(), nullptr};
-      own.near.run(input, reach, radius_of, kSlack, judge_target);
-    };
-    own.tables.run(cores[k], reach * kSlack, counts, judge_patch);
-  });
-  return found;
+  visit_near_texels(
+      nodes, backend, samples, targets,
+      [](const Sample& s) { return kReach * std::sqrt(double(s.area)); },
+      [&](Index target, std::span<const Index> around) {
+        Thread& own = threads.local();
+        const Index texel = targets.samples[target].texel;
+        const float* const read = working.straight().values_of(texel);
+        own.colour.assign(read, read + channels);
+        bool changed = false;
+        for (const Judge& judge : judges)
+          changed |= judge.changes(texel, around, own.values, own.colour.data());
+        if (changed) own.spikes.push_back({target, texel, own.colour});
+      });
+  std::vector<Spike> all;
+  for (Thread& own : threads)
+    std::move(own.spikes.begin(), own.spikes.end(), std::back_inserter(all));
+  const auto by_texel = [](const Spike& a, const Spike& b) {
+    return std::pair(a.texel, a.target) < std::pair(b.texel, b.target);
+  };
+  std::sort(all.begin(), all.end(), by_texel);
+  all.erase(std::unique(all.begin(), all.end(),
+                        [](const Spike& a, const Spike& b) { return a.texel == b.texel; }),
+            all.end());
+  return all;
+}
+
+/// Over the surface, of all maps together.
+double mean_brightness(const Samples& samples, const std::vector<Judge>& judges,
+                       const std::vector<float>& changes) {
+  double sum = 0, area = 0;
+  for (const Sample& s : samples.samples) {
+    double own = changes.empty() ? 0 : changes[s.texel];
+    for (const Judge& judge : judges) own += judge.brightness(s.texel);
+    if (!std::isfinite(own)) continue;
+    sum += s.area * own / double(judges.size());
+    area += s.area;
+  }
+  return area > 0 ? sum / area : 0;
 }
 
 }  // namespace
 
 DespikeReport despike(const NodeMesh& nodes, const DistanceBackend& backend, const Samples& samples,
-                      const Samples& targets, double factor, WorkingValues& working) {
-  const std::vector<Judge> judges = make_judges(working, factor);
-  const std::vector<Spikes> found = find_spikes(nodes, backend, samples, targets, judges, working);
+                      const Samples& targets, const DespikeOptions& options,
+                      WorkingValues& working) {
+  const std::vector<Judge> judges = make_judges(working, options);
+  const std::vector<Spike> spikes = find_spikes(nodes, backend, samples, targets, judges, working);
   DespikeReport report;
-  const std::size_t channels = working.channels().size();
-  double area = 0;
-  for (const Sample& s : samples.samples) {
-    for (const Judge& judge : judges) {
-      const double own = judge.brightness(s.texel);
-      if (!std::isfinite(own)) continue;
-      report.mean_before += s.area * own;
-      area += s.area;
-    }
-  }
-  // Of a texel in several places the first one decides.
-  std::vector<float> change(working.map().coverage.size(), 0);
-  std::vector<bool> is_spike(working.map().coverage.size(), false);
+  report.spikes = spikes.size();
+  report.mean_before = report.mean_after = mean_brightness(samples, judges, {});
+  if (spikes.empty()) return report;
+  std::vector<float> changes(working.map().coverage.size(), 0);
   std::vector<Index> texels;
   std::vector<float> colours;
-  for (const Spikes& spikes : found) {
-    for (std::size_t k = 0; k < spikes.texels.size(); ++k) {
-      const Index t = spikes.texels[k];
-      if (is_spike[t]) continue;
-      is_spike[t] = true;
-      const float* const colour = &spikes.colours[k * channels];
-      for (const Judge& judge : judges)
-        change[t] += float(judge.brightness_of(colour, working) - judge.brightness(t));
-      texels.push_back(t);
-      colours.insert(colours.end(), colour, colour + channels);
-    }
+  for (const Spike& spike : spikes) {
+    for (const Judge& judge : judges)
+      changes[spike.texel] +=
+          float(judge.brightness_of(spike.colour.data(), working) - judge.brightness(spike.texel));
+    texels.push_back(spike.texel);
+    colours.insert(colours.end(), spike.colour.begin(), spike.colour.end());
   }
-  report.mean_after = report.mean_before;
-  if (!texels.empty()) {
-    for (const Sample& s : samples.samples) report.mean_after += double(s.area) * change[s.texel];
-  }
-  if (area > 0) {
-    report.mean_before /= area;
-    report.mean_after /= area;
-  }
-  report.spikes = texels.size();
+  report.mean_after = mean_brightness(samples, judges, changes);
   working.change(texels, colours);
   return report;
 }

@@ -19,7 +19,7 @@ struct FeatureSlot {
   /// Made of the values that are filtered.
   bool is_own() const { return guide == nullptr || guide->kind == Guide::Kind::own; }
   /// The texel's own values, which it may not have.
-  bool is_own_value() const { return is_own() && !(guide != nullptr && guide->blur); }
+  bool is_own_value() const { return is_own() && !(guide != nullptr && guide->is_smoothed()); }
 };
 
 /// The slots of a run: first those that every texel has, then the own values.

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "onmesh/base/parallel.h"
 #include "onmesh/filter/guide_features.h"
+#include "onmesh/filter/near_texels.h"
 #include "onmesh/filter/noise.h"
 #include "onmesh/filter/patch_loop.h"
+#include "onmesh/filter/percentile.h"
 #include "onmesh/filter/results.h"
 #include "onmesh/filter/shared_results.h"
 
@@ -19,9 +22,40 @@ constexpr double kNoNoise = 1e-6;
 
 double in_features(const RangeWidth& width, const Colours& features, const TexelMap& map,
                    double& noise) {
-  if (!width.in_noise) return width.value;
-  noise = noise_of(features, map);
-  return std::max(width.value * noise, kNoNoise * robust_extent(features, map));
+  if (width.unit == RangeWidth::Unit::feature) return width.value;
+  noise = noise_of(features, map,
+                   width.unit == RangeWidth::Unit::noise ? NoiseBy::median : NoiseBy::mean);
+  return std::max(width.value * std::pow(noise, width.power),
+                  kNoNoise * robust_extent(features, map));
+}
+
+/// The median of each channel around every target, its own texel's among them.
+std::vector<float> medians(const SurfaceWork& work, const Colours& features, double radius) {
+  const auto channels = std::size_t(features.channels);
+  const Samples& targets = work.samples.targets();
+  std::vector<float> result(work.setup.map.coverage.size() * channels);
+  SharedResults shared(work.setup.overlap, targets, channels);
+  const auto write = [&](Index texel, const float* values) {
+    std::copy_n(values, channels, &result[std::size_t(texel) * channels]);
+  };
+  visit_near_texels(
+      work.nodes, work.backend, work.samples.sources, targets,
+      [&](const Sample&) { return radius; },
+      [&](Index target, std::span<const Index> around) {
+        std::vector<float> own(channels), values;
+        const Index texel = targets.samples[target].texel;
+        for (std::size_t c = 0; c < channels; ++c) {
+          values.assign(1, features.values_of(texel)[c]);
+          for (const Index t : around) values.push_back(features.values_of(t)[c]);
+          std::erase_if(values, [](float v) { return !std::isfinite(v); });
+          own[c] =
+              values.empty() ? std::numeric_limits<float>::quiet_NaN() : percentile(values, 0.5);
+        }
+        shared.store(target, target + 1, own.data(),
+                     [&](Index, const float* median) { write(texel, median); });
+      });
+  shared.merge(write);
+  return result;
 }
 
 /// The mean of features around every target, weighted by distance alone.
@@ -70,13 +104,13 @@ Features::Features(const SurfaceWork& work, WorkingValues& working, FilterReport
     return;
   }
   width_ = report.range_width = widths_[0];
-  blur(false);
+  smooth(false);
   scale(false);
 }
 
 void Features::renew() {
   working_.compare_own();
-  blur(true);
+  smooth(true);
   scale(true);
 }
 
@@ -94,18 +128,21 @@ double Features::width_of(const FeatureSlot& slot, FilterReport& report) const {
   return result;
 }
 
-void Features::blur(bool again) {
+void Features::smooth(bool again) {
   for (const FeatureSlot& slot : working_.layout().slots) {
-    if (slot.guide == nullptr || !slot.guide->blur || (again && !slot.is_own())) continue;
-    const double sigma = resolve(*slot.guide->blur, work_.setup.mesh_plan.texel_size,
-                                 work_.setup.mesh_plan.diagonal) /
+    if (slot.guide == nullptr || !slot.guide->is_smoothed() || (again && !slot.is_own())) continue;
+    const Guide& guide = *slot.guide;
+    const double reach = resolve(guide.blur ? *guide.blur : *guide.median,
+                                 work_.setup.mesh_plan.texel_size, work_.setup.mesh_plan.diagonal) /
                          work_.setup.unit;
-    const std::vector<float> means = blurred(work_, working_.features(slot), sigma);
+    const Colours features = working_.features(slot);
+    const std::vector<float> values =
+        guide.blur ? blurred(work_, features, reach) : medians(work_, features, reach);
     const auto channels = std::size_t(slot.channels);
     over_blocks(work_.setup.map.coverage.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t)
         if (work_.setup.map.coverage[t] == Coverage::covered)
-          std::copy_n(&means[t * channels], channels, working_.features_of(Index(t), slot));
+          std::copy_n(&values[t * channels], channels, working_.features_of(Index(t), slot));
     });
     fill_slot(slot, work_.setup.map, working_);
   }

@@ -22,7 +22,7 @@ struct SurfaceWork {
   const FilterSamples& samples;
 };
 
-/// The features of a run: in range space, blurred, and scaled so that one width serves all.
+/// The features of a run: in range space, smoothed, and scaled so that one width serves all.
 class Features {
  public:
   /// Make them from the values as they are now.
@@ -38,7 +38,7 @@ class Features {
 
  private:
   /// \param again only those of own values
-  void blur(bool again);
+  void smooth(bool again);
   void scale(bool again);
   double width_of(const FeatureSlot& slot, FilterReport& report) const;
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "onmesh/atlas/chart_mask.h"
 #include "onmesh/atlas/fill_rings.h"
@@ -18,6 +19,7 @@
 #include "onmesh/filter/despike.h"
 #include "onmesh/filter/draw_samples.h"
 #include "onmesh/filter/features.h"
+#include "onmesh/filter/keep_mean.h"
 #include "onmesh/filter/memory_plan.h"
 #include "onmesh/filter/on_threads.h"
 #include "onmesh/filter/patch_loop.h"
@@ -244,8 +246,9 @@ PatchWork patch_work(const SurfaceWork& surface, const WorkingValues& working, d
 
 void take_spikes(const SurfaceWork& surface, WorkingValues& working, FilterReport& report) {
   if (surface.options.despike == 0) return;
-  const DespikeReport done = despike(surface.nodes, surface.backend, surface.samples.sources,
-                                     surface.samples.targets(), surface.options.despike, working);
+  const DespikeReport done =
+      despike(surface.nodes, surface.backend, surface.samples.sources, surface.samples.targets(),
+              {surface.options.despike, surface.options.despike_to_limit}, working);
   working.settle();
   report.spikes = done.spikes;
   report.mean_before = done.mean_before;
@@ -259,6 +262,8 @@ void filter_samples(const RunContext& run, const SurfaceWork& surface, WorkingVa
   Features renewed = features;
   const bool poisson = options.samples == SampleKind::poisson;
   const ValueRange range = value_range(working, poisson ? &surface.samples.sources : nullptr);
+  std::optional<SurfaceMeans> means;
+  if (options.keep_mean) means.emplace(working, surface.samples.sources);
   for (int pass = 0; pass < options.iterations; ++pass) {
     if (pass > 0) {
       working.take_results(results_at, options.guides_from_result);
@@ -275,6 +280,7 @@ void filter_samples(const RunContext& run, const SurfaceWork& surface, WorkingVa
     results.merge_shared();
     note_counts(counts, run.report);
   }
+  if (means) means->give_to(results_at, range);
   if (const Index unfolded = surface.backend.unfolded_patches(); unfolded > 0) {
     run.report.warnings.push_back(
         count_text(unfolded, "part", "parts") + " of the surface with faces too thin for " +

@@ -41,7 +41,7 @@ FilterOptions settle_guides(const SurfaceTextures& textures, FilterOptions optio
   for (Guide& guide : options.guides)
     if (is_texture_itself(guide, textures)) guide.kind = Guide::Kind::own;
   const bool is_own = options.guides.size() == 1 && options.guides[0].kind == Guide::Kind::own &&
-                      !options.guides[0].blur && textures.maps.size() < 2;
+                      !options.guides[0].is_smoothed() && textures.maps.size() < 2;
   if (is_own) {
     options.sigma_range = options.guides[0].width;
     options.guides.clear();

@@ -35,6 +35,8 @@ struct Guide {
   RangeWidth width;            ///< not of surface_position
   Length length;               ///< of surface_position only
   std::optional<Length> blur;  ///< standard deviation of a Gaussian on the surface, cut at 3 of it
+  std::optional<Length> median;  ///< instead: median of each channel within that distance
+  bool is_smoothed() const { return blur || median; }
 
   int map = -1;  ///< own: which of SurfaceTextures::maps; -1 = all values
 

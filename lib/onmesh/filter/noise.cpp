@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "onmesh/atlas/charts_of_texels.h"
@@ -9,14 +10,26 @@
 namespace onmesh {
 namespace {
 
-/// Of a Gaussian the median of absolute values is so much of its standard deviation; the second
-/// difference has a standard deviation of the root of 6.
-constexpr double kMedianOfGaussian = 0.6745, kOfDifference = 6;
+/// Of a Gaussian the median and the mean of absolute values are so much of its standard deviation;
+/// the second difference has a standard deviation of the root of 6.
+constexpr double kMedianOfGaussian = 0.6745, kMeanOfGaussian = 0.7978845608, kOfDifference = 6;
 constexpr Index kEnough = 1 << 18;  ///< texels
+
+/// Reorders them.
+/// \pre there are some
+double deviation(std::vector<float>& differences, NoiseBy by) {
+  if (by == NoiseBy::mean) {
+    const double sum = std::accumulate(differences.begin(), differences.end(), 0.0);
+    return sum / double(differences.size()) / kMeanOfGaussian;
+  }
+  const auto middle = differences.begin() + std::ptrdiff_t(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  return *middle / kMedianOfGaussian;
+}
 
 }  // namespace
 
-double noise_of(const Colours& features, const TexelMap& map) {
+double noise_of(const Colours& features, const TexelMap& map, NoiseBy by) {
   const std::vector<Index> charts = charts_of_texels(map);
   const auto channels = std::size_t(features.channels);
   std::vector<std::vector<float>> differences(channels);
@@ -44,10 +57,7 @@ double noise_of(const Colours& features, const TexelMap& map) {
   double squares = 0;
   for (std::vector<float>& some : differences) {
     if (some.empty()) return 0;
-    const auto middle = some.begin() + std::ptrdiff_t(some.size() / 2);
-    std::nth_element(some.begin(), middle, some.end());
-    const double deviation = *middle / (kMedianOfGaussian * std::sqrt(kOfDifference));
-    squares += deviation * deviation;
+    squares += std::pow(deviation(some, by), 2) / kOfDifference;
   }
   return std::sqrt(squares / double(channels));
 }

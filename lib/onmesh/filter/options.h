@@ -54,6 +54,11 @@ struct FilterOptions {
   /// Values that stick out of those within three texels so many times are taken down to them before
   /// all else, see despike(); 0 = none, else [1, 1e6].
   double despike = 0;
+  /// Colours that are spikes come down to the limit itself, rather than to the median around them:
+  /// where light is noisy, that is nearer to what they would be on average.
+  bool despike_to_limit = false;
+  /// Results are scaled so that each map's mean over the surface is that of what was summed.
+  bool keep_mean = false;
   /// How often the sums are done, each time of the last result; [1, 100].
   int iterations = 1;
   /// Range weights of all but the first of them compare the last result, where they compare what is

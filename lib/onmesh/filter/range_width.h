@@ -8,16 +8,25 @@ namespace onmesh {
 
 /// The standard deviation of a weight by differences of features.
 struct RangeWidth {
-  double value = 0;       ///< > 0
-  bool in_noise = false;  ///< a multiple of the features' noise, see noise_of()
+  /// What it is a multiple of.
+  enum class Unit {
+    feature,     ///< the features' own unit
+    noise,       ///< their noise by its median, see noise_of()
+    mean_noise,  ///< the same by its mean, for values that are mostly equal
+  };
+  double value = 0;  ///< > 0
+  Unit unit = Unit::feature;
+  double power = 1;  ///< of the noise: beyond 1, what is hardly noisy is hardly filtered
 
   RangeWidth() = default;
   /// In the features' own unit.
   RangeWidth(double width) : value(width) {}
-  RangeWidth(double width, bool is_in_noise) : value(width), in_noise(is_in_noise) {}
+  RangeWidth(double width, Unit width_unit, double width_power = 1)
+      : value(width), unit(width_unit), power(width_power) {}
 };
 
-/// Read a positive finite number, which may be a fraction as 25/255, or one of noise: "2n".
+/// Read a positive finite number, which may be a fraction as 25/255, or one of noise, "2n" by its
+/// median or "2m" by its mean, or of a power of that: "22m^1.5".
 /// \param option what the width is for, as the error names it
 /// \throw OptionError if the text is anything else
 RangeWidth parse_range_width(std::string_view option, std::string_view text);

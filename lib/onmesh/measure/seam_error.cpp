@@ -3,35 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "onmesh/atlas/unfolded_walk.h"
 #include "onmesh/base/error.h"
 #include "onmesh/base/parallel.h"
+#include "onmesh/measure/seams.h"
 
 namespace onmesh {
 namespace {
 
-/// A seam edge: edge face % 3 of one face and edge other % 3 of the other, and its error.
-struct Seam {
-  Index face, other;  ///< 3 * face + edge
+/// The error of a seam.
+struct MeasuredSeam : Seam {
   double length = 0, mean_square = 0, max = 0;
 };
-
-std::vector<Seam> find_seams(const TriangleMesh& mesh, const TexelMap& map) {
-  const UnfoldedWalk walk(mesh, map);
-  std::vector<Seam> seams;
-  for (Index f = 0; f < mesh.faces.size(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const Index other = walk.across(f, k);
-      if (other == kNone || walk.across_in_chart(f, k) == other) continue;
-      // Once, unless the surface branches and the way back leads elsewhere.
-      const bool mutual = walk.across(other / 3, int(other % 3)) == 3 * f + Index(k);
-      if (mutual && other / 3 < f) continue;
-      if (map.chart_of_face[f] == kNone || map.chart_of_face[other / 3] == kNone) continue;
-      seams.push_back({3 * f + Index(k), other});
-    }
-  }
-  return seams;
-}
 
 /// A side's image, and how UVs beyond it are read.
 struct Side {
@@ -44,12 +26,12 @@ struct Side {
 };
 
 /// Fill in the seam's length and error.
-void measure(const TriangleMesh& mesh, const Side& one_side, const Side& other_side, Seam& seam) {
-  const Index f = seam.face / 3, g = seam.other / 3;
-  const std::size_t a = seam.face % 3, b = (a + 1) % 3, c = seam.other % 3, d = (c + 1) % 3;
-  const bool opposed = mesh.faces[f][a] == mesh.faces[g][d];
+void measure(const TriangleMesh& mesh, const Side& one_side, const Side& other_side,
+             MeasuredSeam& seam) {
+  const Index f = seam.face(), g = seam.other_face();
+  const std::size_t a = seam.side % 3, b = (a + 1) % 3, c = seam.other_side % 3, d = (c + 1) % 3;
   const auto u = mesh.corner_uvs(f), v = mesh.corner_uvs(g);
-  const Vec2 &u0 = u[a], &u1 = u[b], &v0 = v[opposed ? d : c], &v1 = v[opposed ? c : d];
+  const Vec2 &u0 = u[a], &u1 = u[b], &v0 = v[seam.opposed ? d : c], &v1 = v[seam.opposed ? c : d];
   seam.length = (mesh.positions[mesh.faces[f][b]] - mesh.positions[mesh.faces[f][a]]).norm();
   const double pixels = std::max(one_side.pixels(u0, u1), other_side.pixels(v0, v1));
   const int points = int(std::ceil(std::min(2 * pixels, 1e6))) + 1;
@@ -76,21 +58,21 @@ SeamError seam_error(const TriangleMesh& mesh, const TexelMap& map,
     if (map.tiles[i].width != images[i]->width || map.tiles[i].height != images[i]->height)
       throw InputError("the texel map is not of the image's size");
   }
-  std::vector<Seam> seams = find_seams(mesh, map);
-  if (tile != kNone) {
-    std::erase_if(seams, [&](const Seam& seam) {
-      return map.tile_number(seam.face / 3) != tile && map.tile_number(seam.other / 3) != tile;
-    });
+  std::vector<MeasuredSeam> seams;
+  for (const Seam& seam : find_seams(mesh, map)) {
+    if (tile == kNone || map.tile_number(seam.face()) == tile ||
+        map.tile_number(seam.other_face()) == tile)
+      seams.push_back({seam});
   }
   parallel_over(seams.size(), [&](std::size_t i) {
     const auto side = [&](Index face) {
       return Side{*images[map.tile_number(face)], map.tile_of(face).wrap};
     };
-    measure(mesh, side(seams[i].face / 3), side(seams[i].other / 3), seams[i]);
+    measure(mesh, side(seams[i].face()), side(seams[i].other_face()), seams[i]);
   });
   SeamError result;
   double squares = 0;
-  for (const Seam& seam : seams) {
+  for (const MeasuredSeam& seam : seams) {
     squares += seam.length * seam.mean_square;
     result.length += seam.length;
     result.max = std::max(result.max, seam.max);
