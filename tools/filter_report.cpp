@@ -22,6 +22,14 @@ json method_json(const FilterReport& report) {
           {"rms_error", report.rms_error}, {"max_error", report.max_error}};
 }
 
+json range_json(const FilterReport& report) {
+  const bool has_means = report.mean_before != 0 || report.mean_after != 0;
+  return {{"width", report.range_width > 0 ? json(report.range_width) : json()},
+          {"noise", report.noise > 0 ? json(report.noise) : json()},
+          {"mean_before_despiking", has_means ? json(report.mean_before) : json()},
+          {"mean_after_despiking", has_means ? json(report.mean_after) : json()}};
+}
+
 json lengths_json(const FilterReport& report) {
   return {{"sigma_spatial", report.sigma_spatial},
           {"radius", report.radius},
@@ -48,6 +56,7 @@ json counts_json(const FilterReport& report) {
           {"gutter_texels", report.gutter},
           {"missing_texels", report.missing},
           {"left_out_texels", report.left_out},
+          {"spikes", report.spikes},
           {"texels_without_sample", report.without_sample}};
 }
 
@@ -100,6 +109,7 @@ json to_json(const FilterReport& report) {
   return {
       {"backend", {{"name", report.backend}, {"reason", report.backend_reason}}},
       {"method", method_json(report)},
+      {"range", range_json(report)},
       {"instruction_set", report.instruction_set},
       {"refinement", report.refinement},
       {"lengths", lengths_json(report)},
@@ -154,6 +164,11 @@ void print_summary(const FilterReport& report, double seconds, std::ostream& out
     if (report.palette > 0) out << ", at most " << report.palette << " colours";
     out << "; of " << format_count(report.checked) << " values checked, RMS error "
         << number_text(report.rms_error) << ", largest " << number_text(report.max_error) << '\n';
+  }
+  if (report.noise > 0) out << "noise " << number_text(report.noise) << '\n';
+  if (report.spikes > 0) {
+    out << format_count(report.spikes) << " spikes taken down: the mean went from "
+        << number_text(report.mean_before) << " to " << number_text(report.mean_after) << '\n';
   }
   if (report.joined_edges + report.t_junctions > 0) {
     out << format_count(report.joined_edges) << " boundary edges joined, "

@@ -1,7 +1,5 @@
 #include "presets.h"
 
-#include <algorithm>
-
 namespace onmesh::tools {
 
 const std::vector<Preset>& presets() {
@@ -10,6 +8,7 @@ const std::vector<Preset>& presets() {
        "noisy light maps",
        false,
        {{"sigma-spatial", "4tx"},
+        {"radius", "8tx"},
         {"range-space", "log"},
         {"despike", "4"},
         {"despike-to", "limit"},
@@ -22,7 +21,8 @@ const std::vector<Preset>& presets() {
        "noisy ambient occlusion and other numbers",
        true,
        {{"sigma-spatial", "4tx"},
-        {"guide", "self:blur=3tx:0.4m"},
+        {"radius", "8tx"},
+        {"guide", "self:blur=1.5tx:0.8m"},
         {"guide", "self:20m^1.5"},
         {"guide", "surface-normal:0.35"}}},
       {"scan", "photo textures of scans", false, {{"sigma-spatial", "3tx"}, {"guide", "self:2n"}}},
@@ -31,20 +31,21 @@ const std::vector<Preset>& presets() {
   return list;
 }
 
-const Preset* apply_preset(Arguments& arguments) {
+const Preset* preset_of(const Arguments& arguments) {
   if (!arguments.has("preset")) return nullptr;
   const std::string name = arguments.text("preset");
-  const auto& list = presets();
-  const auto found = std::find_if(list.begin(), list.end(),
-                                  [&](const Preset& preset) { return name == preset.name; });
-  if (found == list.end()) {
-    std::string names;
-    for (const Preset& preset : list) {
-      if (!names.empty()) names += ", ";
-      names += preset.name;
-    }
-    throw UsageError("--preset: '" + name + "' is not one of " + names);
+  std::string names;
+  for (const Preset& preset : presets()) {
+    if (name == preset.name) return &preset;
+    if (!names.empty()) names += ", ";
+    names += preset.name;
   }
+  throw UsageError("--preset: '" + name + "' is not one of " + names);
+}
+
+const Preset* apply_preset(Arguments& arguments) {
+  const Preset* const found = preset_of(arguments);
+  if (found == nullptr) return nullptr;
   // Whoever says what is compared, or that nothing is, wants no guides of the preset.
   const bool has_own_range = arguments.given("guide") || arguments.given("sigma-range") ||
                              (arguments.given("kind") && arguments.text("kind") == "gaussian");
@@ -52,7 +53,7 @@ const Preset* apply_preset(Arguments& arguments) {
     if (std::string(option.name) == "guide" && has_own_range) continue;
     arguments.set_default(option.name, option.value);
   }
-  return &*found;
+  return found;
 }
 
 std::string text_of(const Preset& preset) {

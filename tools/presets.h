@@ -24,6 +24,10 @@ struct Preset {
 
 const std::vector<Preset>& presets();
 
+/// The value of --preset; null if none was asked for.
+/// \throw UsageError if there is no such preset
+const Preset* preset_of(const Arguments& arguments);
+
 /// Give the options of --preset their defaults; options that were given stay.
 /// \return the preset, null if none was asked for
 /// \throw UsageError if there is no such preset

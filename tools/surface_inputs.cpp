@@ -10,6 +10,7 @@
 #include "onmesh/base/process_memory.h"
 #include "onmesh/image/channels.h"
 #include "onmesh/mesh_io/write_gltf.h"
+#include "presets.h"
 #include "shared_options.h"
 #include "tile_names.h"
 
@@ -85,6 +86,7 @@ bool needs_alpha(const Arguments& arguments) {
 /// A map's images, and what their codes mean.
 void read_images(const Arguments& arguments, bool has_slot, InputMap& map, SurfaceInputs& inputs) {
   ColourSpaceRequest spaces = colour_space_request(arguments, map.slot, has_slot);
+  const Preset* const preset = preset_of(arguments);
   std::vector<std::string> names;
   for (std::size_t i = map.first; i < map.first + map.count; ++i) {
     const SetTexture& texture = inputs.set.textures[i];
@@ -100,6 +102,8 @@ void read_images(const Arguments& arguments, bool has_slot, InputMap& map, Surfa
     }
     Image& image = inputs.images.back();
     spaces.role = texture.role;
+    if (spaces.role == Role::unknown && preset != nullptr && preset->is_data)
+      spaces.role = Role::data;
     inputs.spaces.push_back(choose_colour_space(image, spaces));
     if (inputs.spaces.back().has_no_alpha) image.alpha_channel = -1;
     names.push_back(texture.path.string());

@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include "onmesh/base/error.h"
 #include "onmesh/filter/filter.h"
 #include "onmesh/filter/map_set.h"
 #include "onmesh/filter/noise.h"
@@ -134,11 +135,11 @@ TEST_CASE("maps of another size are compared by what lies there on the surface",
       image.pixels[t] = int(t) % size < size / 2 ? 0.25F : 0.75F;
     return image;
   };
-  const Image guide = halves(kSize / 2), noisy = pattern(3, 9);
+  const Image guide = halves(kSize / 2), whole = halves(kSize), noisy = pattern(3, 9);
   FilterOptions options = some_options();
   options.guides = {image_guide(guide, 0.01)};
   const Image result = filter(mesh, noisy, options);
-  options.guides = {image_guide(halves(kSize), 0.01)};
+  options.guides = {image_guide(whole, 0.01)};
   const Image same = filter(mesh, noisy, options);
   // Bilinear look-ups see something between in the two columns along the border only: they count
   // for nothing elsewhere.
@@ -260,6 +261,97 @@ TEST_CASE("the noise of features is their deviation, whatever they rise to", "[g
   CHECK(report.range_width == Approx(2 * report.noise));
   options.sigma_range = report.range_width;
   CHECK(same_values(filter(make_plane(1, 1), image, options), by_noise));
+}
+
+TEST_CASE("widths grow with powers of the noise, by its median or its mean", "[guides][noise]") {
+  CHECK(to_string(parse_range_width("sigma_range", "25/255")) == "0.09803921568627451");
+  for (const char* text : {"0.1", "2n", "0.4m", "1800n^3", "20m^1.5"})
+    CHECK(to_string(parse_range_width("sigma_range", text)) == text);
+  for (const char* text : {"", "n", "-1", "2x", "2n3", "2n^", "2n^-1", "1/0", "2nn", "inf"})
+    CHECK_THROWS_AS(parse_range_width("sigma_range", text), OptionError);
+  // One texel in eight is noisy: the median does not see it.
+  Image image = make_image(64, 64, 1);
+  std::mt19937 random(1);
+  for (float& v : image.pixels) v = random() % 8 == 0 ? 0.9F : 0.5F;
+  const TexelMap map = make_texel_map(make_plane(1, 1), 64, 64);
+  const Colours colours{image.pixels.data(), 1, 0, 1, 64};
+  CHECK(noise_of(colours, map) == 0);
+  const double mean = noise_of(colours, map, NoiseBy::mean);
+  CHECK(mean > 0.05);
+  FilterOptions options = some_options();
+  options.sigma_range = RangeWidth(3, RangeWidth::Unit::mean_noise, 2);
+  FilterReport report;
+  filter(make_plane(1, 1), image, options, &report);
+  CHECK(report.range_width == Approx(3 * mean * mean));
+}
+
+TEST_CASE("a guide may be the median around each texel", "[guides]") {
+  const TriangleMesh mesh = GENERATE(make_plane(1, 1), make_folded_sheet(4, 1, 1, 80));
+  const Image image = pattern(1, 3);
+  Image median = image;
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      std::vector<float> values;  // within 1.5 texels: up to nine
+      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, kSize - 1); ++v)
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, kSize - 1); ++u)
+          values.push_back(image.pixels[std::size_t(v * kSize + u)]);
+      std::sort(values.begin(), values.end());
+      const std::size_t half = values.size() / 2;
+      median.pixels[std::size_t(y * kSize + x)] =
+          values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+    }
+  }
+  FilterOptions options = some_options();
+  Guide guide = map_guide(-1, 0.2);
+  guide.median = Length{1.5, Length::Unit::texel};
+  options.guides = {guide};
+  const Image result = filter(mesh, image, options);
+  options.guides = {image_guide(median, 0.2)};
+  CHECK(largest_difference(result, filter(mesh, image, options)) < 1e-5);
+}
+
+TEST_CASE("results keep the mean of what was summed if they are to", "[guides]") {
+  Image image = make_image(kSize, kSize, 3);
+  std::mt19937 random(4);
+  std::exponential_distribution<float> light(1);
+  for (float& v : image.pixels) v = light(random);
+  FilterOptions options = some_options();
+  options.range_space = RangeSpace::log;
+  options.sigma_range = 0.4;
+  const auto mean_of = [](const Image& of) {
+    double sum = 0;
+    for (Index t = 0; t < kSize * kSize; ++t)
+      sum += 0.2126 * of.texel(t)[0] + 0.7152 * of.texel(t)[1] + 0.0722 * of.texel(t)[2];
+    return sum / (kSize * kSize);
+  };
+  const TriangleMesh mesh = make_plane(1, 1);
+  CHECK(mean_of(filter(mesh, image, options)) < 0.99 * mean_of(image));
+  options.keep_mean = true;
+  CHECK(mean_of(filter(mesh, image, options)) == Approx(mean_of(image)).epsilon(1e-4));
+}
+
+TEST_CASE("nodes with a guide of three channels are within the tolerance", "[guides][slow]") {
+  constexpr int kLarge = 512;
+  const Image guide = make_texture(kLarge, kLarge, Pattern::checker, 0.1, 2, 3);
+  const Image image = make_texture(kLarge, kLarge, Pattern::checker, 0.3, 5, 3);
+  const TriangleMesh mesh = make_plane(1, 1);
+  FilterOptions options = some_options();
+  options.sigma_spatial = {8, Length::Unit::texel};
+  options.guides = {image_guide(guide, 0.2)};
+  const Image direct = filter(mesh, image, options);
+  options.method = FilterMethod::nodes;
+  FilterReport report;
+  const Image by_nodes = filter(mesh, image, options, &report);
+  CHECK(report.by_nodes > report.texels / 2);
+  std::vector<float> errors;
+  double squares = 0;
+  for (std::size_t k = 0; k < direct.pixels.size(); ++k) {
+    errors.push_back(std::abs(direct.pixels[k] - by_nodes.pixels[k]));
+    squares += double(errors.back()) * errors.back();
+  }
+  std::sort(errors.begin(), errors.end());
+  CHECK(std::sqrt(squares / double(errors.size())) < options.tolerance);
+  CHECK(errors[errors.size() - errors.size() / 1000] < 8 * options.tolerance);
 }
 
 TEST_CASE("iterations go on with the last result", "[guides]") {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "onmesh/base/parallel.h"
-#include "onmesh/filter/near_texels.h"
 #include "onmesh/filter/percentile.h"
 #include "onmesh/filter/range_space.h"
 #include "onmesh/filter/results.h"
@@ -145,9 +144,8 @@ struct Spike {
 };
 
 /// In the order of targets; of a texel in several places the first one decides.
-std::vector<Spike> find_spikes(const NodeMesh& nodes, const DistanceBackend& backend,
-                               const Samples& samples, const Samples& targets,
-                               const std::vector<Judge>& judges, const WorkingValues& working) {
+std::vector<Spike> find_spikes(const NearWork& work, const std::vector<Judge>& judges,
+                               const WorkingValues& working) {
   struct Thread {
     std::vector<float> values, colour;
     std::vector<Spike> spikes;
@@ -155,11 +153,10 @@ std::vector<Spike> find_spikes(const NodeMesh& nodes, const DistanceBackend& bac
   tbb::enumerable_thread_specific<Thread> threads;
   const std::size_t channels = working.channels().size();
   visit_near_texels(
-      nodes, backend, samples, targets,
-      [](const Sample& s) { return kReach * std::sqrt(double(s.area)); },
+      work, [](const Sample& s) { return kReach * std::sqrt(double(s.area)); },
       [&](Index target, std::span<const Index> around) {
         Thread& own = threads.local();
-        const Index texel = targets.samples[target].texel;
+        const Index texel = work.targets.samples[target].texel;
         const float* const read = working.straight().values_of(texel);
         own.colour.assign(read, read + channels);
         bool changed = false;
@@ -196,14 +193,12 @@ double mean_brightness(const Samples& samples, const std::vector<Judge>& judges,
 
 }  // namespace
 
-DespikeReport despike(const NodeMesh& nodes, const DistanceBackend& backend, const Samples& samples,
-                      const Samples& targets, const DespikeOptions& options,
-                      WorkingValues& working) {
+DespikeReport despike(const NearWork& work, const DespikeOptions& options, WorkingValues& working) {
   const std::vector<Judge> judges = make_judges(working, options);
-  const std::vector<Spike> spikes = find_spikes(nodes, backend, samples, targets, judges, working);
+  const std::vector<Spike> spikes = find_spikes(work, judges, working);
   DespikeReport report;
   report.spikes = spikes.size();
-  report.mean_before = report.mean_after = mean_brightness(samples, judges, {});
+  report.mean_before = report.mean_after = mean_brightness(work.samples, judges, {});
   if (spikes.empty()) return report;
   std::vector<float> changes(working.map().coverage.size(), 0);
   std::vector<Index> texels;
@@ -215,7 +210,7 @@ DespikeReport despike(const NodeMesh& nodes, const DistanceBackend& backend, con
     texels.push_back(spike.texel);
     colours.insert(colours.end(), spike.colour.begin(), spike.colour.end());
   }
-  report.mean_after = mean_brightness(samples, judges, changes);
+  report.mean_after = mean_brightness(work.samples, judges, changes);
   working.change(texels, colours);
   return report;
 }

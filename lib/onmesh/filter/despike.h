@@ -3,9 +3,8 @@
 
 #include <cstdint>
 
-#include "onmesh/distance/backend.h"
+#include "onmesh/filter/near_texels.h"
 #include "onmesh/filter/working_values.h"
-#include "onmesh/samples/samples.h"
 
 namespace onmesh {
 
@@ -31,10 +30,7 @@ struct DespikeReport {
 /// or to that limit if options say so. A channel of data
 /// is one if |v - median| exceeds K P80(|neighbour - median|) + .001 of the robust range of values:
 /// it becomes the median. Percentiles between two values are interpolated.
-/// \param samples what counts as a neighbour, with areas
-/// \param targets who is judged
-DespikeReport despike(const NodeMesh& nodes, const DistanceBackend& backend, const Samples& samples,
-                      const Samples& targets, const DespikeOptions& options,
-                      WorkingValues& working);
+/// \param work what counts as a neighbour, with areas, and who is judged
+DespikeReport despike(const NearWork& work, const DespikeOptions& options, WorkingValues& working);
 
 }  // namespace onmesh

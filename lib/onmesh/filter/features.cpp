@@ -6,7 +6,6 @@
 
 #include "onmesh/base/parallel.h"
 #include "onmesh/filter/guide_features.h"
-#include "onmesh/filter/near_texels.h"
 #include "onmesh/filter/noise.h"
 #include "onmesh/filter/patch_loop.h"
 #include "onmesh/filter/percentile.h"
@@ -20,13 +19,16 @@ namespace {
 /// differ.
 constexpr double kNoNoise = 1e-6;
 
+/// \param noise of the features if it is known, else 0; receives it
 double in_features(const RangeWidth& width, const Colours& features, const TexelMap& map,
                    double& noise) {
   if (width.unit == RangeWidth::Unit::feature) return width.value;
-  noise = noise_of(features, map,
-                   width.unit == RangeWidth::Unit::noise ? NoiseBy::median : NoiseBy::mean);
-  return std::max(width.value * std::pow(noise, width.power),
-                  kNoNoise * robust_extent(features, map));
+  if (noise == 0) {
+    noise = noise_of(features, map,
+                     width.unit == RangeWidth::Unit::noise ? NoiseBy::median : NoiseBy::mean);
+  }
+  const double result = width.value * std::pow(noise, width.power);
+  return result > 0 ? result : kNoNoise * robust_extent(features, map);
 }
 
 /// The median of each channel around every target, its own texel's among them.
@@ -39,17 +41,20 @@ std::vector<float> medians(const SurfaceWork& work, const Colours& features, dou
     std::copy_n(values, channels, &result[std::size_t(texel) * channels]);
   };
   visit_near_texels(
-      work.nodes, work.backend, work.samples.sources, targets,
-      [&](const Sample&) { return radius; },
+      work.near(), [&](const Sample&) { return radius; },
       [&](Index target, std::span<const Index> around) {
-        std::vector<float> own(channels), values;
+        thread_local std::vector<float> own, values;
+        own.resize(channels);
         const Index texel = targets.samples[target].texel;
         for (std::size_t c = 0; c < channels; ++c) {
-          values.assign(1, features.values_of(texel)[c]);
-          for (const Index t : around) values.push_back(features.values_of(t)[c]);
-          std::erase_if(values, [](float v) { return !std::isfinite(v); });
-          own[c] =
-              values.empty() ? std::numeric_limits<float>::quiet_NaN() : percentile(values, 0.5);
+          values.clear();
+          const auto add = [&](Index t) {
+            const float value = features.values_of(t)[c];
+            if (std::isfinite(value)) values.push_back(value);
+          };
+          add(texel);
+          for (const Index t : around) add(t);
+          own[c] = values.empty() ? std::numeric_limits<float>::quiet_NaN() : median_of(values);
         }
         shared.store(target, target + 1, own.data(),
                      [&](Index, const float* median) { write(texel, median); });
@@ -68,6 +73,10 @@ std::vector<float> blurred(const SurfaceWork& work, const Colours& features, dou
   sums.colours = features;
   sums.kernel = {sigma, 3 * sigma, 0};
   sums.method = work.options.method;
+  // Over so few texels direct sums are always faster.
+  constexpr double kNarrow = 3;
+  if (sums.method == FilterMethod::automatic && sigma < kNarrow * work.setup.lengths.texel_size)
+    sums.method = FilterMethod::direct;
   if (sums.method != FilterMethod::direct) {
     sums.tolerance = work.options.tolerance * robust_extent(features, work.setup.map);
     sums.hot_faces = hot_faces(features, work.setup.map, work.samples.sources);
@@ -114,7 +123,7 @@ void Features::renew() {
   scale(true);
 }
 
-double Features::width_of(const FeatureSlot& slot, FilterReport& report) const {
+double Features::width_of(const FeatureSlot& slot, FilterReport& report) {
   const Guide* const guide = slot.guide;
   if (guide != nullptr && guide->kind == Guide::Kind::surface_position) {
     return resolve(guide->length, work_.setup.mesh_plan.texel_size,
@@ -123,8 +132,17 @@ double Features::width_of(const FeatureSlot& slot, FilterReport& report) const {
   }
   double noise = 0;
   const RangeWidth& width = guide != nullptr ? guide->width : work_.options.sigma_range;
+  // Slots of the same values are as noisy.
+  const auto same = std::find_if(known_noise_.begin(), known_noise_.end(), [&](const Noise& n) {
+    return slot.is_own() && n.unit == width.unit && n.first_channel == slot.first_channel &&
+           n.channels == slot.channels;
+  });
+  if (same != known_noise_.end()) noise = same->value;
   const double result = in_features(width, working_.features(slot), work_.setup.map, noise);
-  if (slot.is_own()) report.noise = noise;
+  if (slot.is_own() && width.unit != RangeWidth::Unit::feature) {
+    report.noise = noise;
+    known_noise_.push_back({width.unit, slot.first_channel, slot.channels, noise});
+  }
   return result;
 }
 

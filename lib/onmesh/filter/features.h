@@ -5,6 +5,7 @@
 
 #include "onmesh/distance/backend.h"
 #include "onmesh/filter/draw_samples.h"
+#include "onmesh/filter/near_texels.h"
 #include "onmesh/filter/report.h"
 #include "onmesh/filter/setup.h"
 #include "onmesh/filter/working_values.h"
@@ -20,6 +21,15 @@ struct SurfaceWork {
   const NodeMesh& nodes;
   const DistanceBackend& backend;
   const FilterSamples& samples;
+
+  NearWork near() const {
+    return {setup,
+            nodes,
+            backend,
+            samples.sources,
+            samples.targets(),
+            options.samples == SampleKind::texel};
+  }
 };
 
 /// The features of a run: in range space, smoothed, and scaled so that one width serves all.
@@ -40,10 +50,17 @@ class Features {
   /// \param again only those of own values
   void smooth(bool again);
   void scale(bool again);
-  double width_of(const FeatureSlot& slot, FilterReport& report) const;
+  double width_of(const FeatureSlot& slot, FilterReport& report);
 
   const SurfaceWork work_;
   WorkingValues& working_;
+  /// Of own values.
+  struct Noise {
+    RangeWidth::Unit unit;
+    int first_channel, channels;
+    double value;
+  };
+  std::vector<Noise> known_noise_;
   std::vector<double> widths_;  ///< per slot
   double width_ = 0;
 };

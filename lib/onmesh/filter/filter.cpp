@@ -247,8 +247,7 @@ PatchWork patch_work(const SurfaceWork& surface, const WorkingValues& working, d
 void take_spikes(const SurfaceWork& surface, WorkingValues& working, FilterReport& report) {
   if (surface.options.despike == 0) return;
   const DespikeReport done =
-      despike(surface.nodes, surface.backend, surface.samples.sources, surface.samples.targets(),
-              {surface.options.despike, surface.options.despike_to_limit}, working);
+      despike(surface.near(), {surface.options.despike, surface.options.despike_to_limit}, working);
   working.settle();
   report.spikes = done.spikes;
   report.mean_before = done.mean_before;

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "onmesh/distance/backend.h"
+#include "onmesh/filter/prepare_mesh.h"
 #include "onmesh/samples/samples.h"
 
 namespace onmesh {
@@ -13,11 +14,20 @@ namespace onmesh {
 /// any thread; every target once.
 using VisitNear = std::function<void(Index target, std::span<const Index> texels)>;
 
-/// Visit all targets that have a radius above 0.
-/// \param radius_of how far samples of a target may be, mesh units
-void visit_near_texels(const NodeMesh& nodes, const DistanceBackend& backend,
-                       const Samples& samples, const Samples& targets,
-                       const std::function<double(const Sample&)>& radius_of,
+/// What is near what.
+struct NearWork {
+  const PreparedMesh& prepared;
+  const NodeMesh& nodes;
+  const DistanceBackend& backend;
+  const Samples& samples;
+  const Samples& targets;
+  bool are_texels = false;  ///< every texel on the surface is a sample once, where it counts
+};
+
+/// Visit all targets that have a radius above 0. Where samples are texels and a face holds all that
+/// is near, distances are those of its plane; elsewhere they come from the back end.
+/// \param radius_of how far samples of a target may be, working units
+void visit_near_texels(const NearWork& work, const std::function<double(const Sample&)>& radius_of,
                        const VisitNear& visit);
 
 }  // namespace onmesh
