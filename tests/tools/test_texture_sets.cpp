@@ -141,7 +141,6 @@ TEST_CASE("sets that cannot be are refused before anything is written", "[tools]
   check_refused(space, "filter two.obj -o one.png", 2,
                 "--output: a.png and b.png would both be written to one.png");
   check_refused(space, "filter two.obj -o '{ext}.png'", 2, "would both be written to");
-  check_refused(space, "filter two.obj -t color=a.png -o o/", 2, "maps of several kinds");
   check_refused(space, "filter two.obj -t a.png@number -o o/", 2, "unknown role '@number'");
   check_refused(space, "filter two.obj -t 'x.<UDIM>.png' --material a -o o/", 4,
                 "x.<UDIM>.png: no file for any of the tiles");

@@ -30,12 +30,13 @@ struct Guide {
     object_normal,  ///< normals of the object's space
   };
 
-  Kind kind = Kind::own;
+  Kind kind = Kind::own;       ///< where its features come from
   std::string name = "self";   ///< what messages call it
   RangeWidth width;            ///< not of surface_position
   Length length;               ///< of surface_position only
   std::optional<Length> blur;  ///< standard deviation of a Gaussian on the surface, cut at 3 of it
   std::optional<Length> median;  ///< instead: median of each channel within that distance
+  /// It is one of these.
   bool is_smoothed() const { return blur || median; }
 
   int map = -1;  ///< own: which of SurfaceTextures::maps; -1 = all values

@@ -14,13 +14,14 @@ struct RangeWidth {
     noise,       ///< their noise by its median, see noise_of()
     mean_noise,  ///< the same by its mean, for values that are mostly equal
   };
-  double value = 0;  ///< > 0
-  Unit unit = Unit::feature;
+  double value = 0;           ///< > 0
+  Unit unit = Unit::feature;  ///< of the value
   double power = 1;  ///< of the noise: beyond 1, what is hardly noisy is hardly filtered
 
   RangeWidth() = default;
   /// In the features' own unit.
   RangeWidth(double width) : value(width) {}
+  /// A multiple of something.
   RangeWidth(double width, Unit width_unit, double width_power = 1)
       : value(width), unit(width_unit), power(width_power) {}
 };

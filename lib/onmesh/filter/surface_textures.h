@@ -39,7 +39,7 @@ struct TextureTile {
 /// together what is a spike, or how large the noise is.
 struct MapChannels {
   std::string name;  ///< what guides call it
-  int channels = 0;
+  int channels = 0;  ///< how many
   /// Numbers, of which each channel is judged by itself; else colours, which have a luminance.
   bool is_data = false;
 };
