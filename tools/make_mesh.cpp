@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "bake.h"
 #include "interruption.h"
 #include "onmesh/image/image_io.h"
 #include "onmesh/mesh_io/write_obj.h"
@@ -29,7 +30,8 @@ Command make_mesh_command() {
       "  onmesh make-mesh noisy-cube -o cube.obj -t cube.png\n"
       "  onmesh make-mesh torus --segments 128 -o torus.obj -t torus.png --pattern dots --size "
       "1024\n"
-      "  onmesh make-mesh cone --sector 200 -o cone.obj\n";
+      "  onmesh make-mesh cone --sector 200 -o cone.obj\n"
+      "  onmesh make-mesh blob -o blob.obj -t noisy.exr --sky 4\n";
   auto add = command.options.add_options();
   add("shape", text());
   add("output,o", text(), "the OBJ to write");
@@ -39,6 +41,9 @@ Command make_mesh_command() {
   add("pattern", text("checker"), "checker, stripes, noise, gradient or dots");
   add("cell", text(),
       "size of the pattern's cells, mesh units (default: an eighth of the longest side)");
+  add("sky", text(),
+      "instead of the pattern: light of an even sky above, as noisy as so many rays for each texel "
+      "make it");
   add("noise", text(), "amplitude of the noise per texel, 0 to 1 (default: 0; noisy-cube: 0.25)");
   add("seed", text("1"), "for noise, the patterns and the blob");
   for (const auto& [name, help] : shape_options()) add(name, text(), help);
@@ -101,9 +106,15 @@ int run_make_mesh(const Arguments& arguments) {
 
   TriangleMesh mesh = make_shape(shape, arguments);
   check_interrupted();
+  arguments.require_with({"sky"}, "texture");
   if (arguments.has("texture")) {
     const std::string texture = arguments.text("texture");
-    write_texture(texture, shape, mesh, size, options);
+    if (arguments.has("sky")) {
+      const int rays = int(arguments.integer("sky", 1, 1000000));
+      write_image(texture, bake_sky(mesh, size, rays, options.seed));
+    } else {
+      write_texture(texture, shape, mesh, size, options);
+    }
     mesh.materials = {{shape.name, texture}};
     std::fill(mesh.face_materials.begin(), mesh.face_materials.end(), 0);
   }

@@ -4,6 +4,7 @@
 
 #include "onmesh/image/image_io.h"
 #include "support/images.h"
+#include "support/paths.h"
 #include "support/run_program.h"
 #include "tools/tool_checks.h"
 
@@ -122,4 +123,41 @@ TEST_CASE("what is wrong about guides and maps is said in one line", "[tools][gu
   refused("--guides-from result", "--iterations of 2 or more");
   refused("--despike 0.5", "--despike");
   refused("--despike-to limit", "only with --despike");
+}
+
+TEST_CASE("presets clean bakes, and leave clean ones as they are", "[tools][guides][slow]") {
+  const std::filesystem::path bakes = shared_data() / "bakes";
+  if (!std::filesystem::exists(bakes)) {
+    WARN("skipped: no ../shared/data");
+    return;
+  }
+  const Workspace space;
+  /// dB over the texels that were baked, of values or of log(1 + x) in light.
+  const auto cleaned = [&](const char* folder, const char* mesh, const char* texture,
+                           const char* reference, const char* preset) {
+    const std::string in = (bakes / folder).string() + "/";
+    space.must("filter " + in + mesh + " -t " + in + texture + " -o o.exr --quiet --preset " +
+               preset);
+    return space
+        .must("compare o.exr " + in + reference + " --mesh " + in + mesh + " --mask " + in +
+              "coverage.png --json")
+        .json();
+  };
+  const auto occlusion = [&](const char* texture) {
+    return cleaned("ao", "gear.obj", texture, "ao_ref.exr", "ao");
+  };
+  CHECK(occlusion("ao_noisy_4spp.exr")["psnr"].get<double>() > 31.5);
+  CHECK(occlusion("ao_ref.exr")["psnr"].get<double>() > 40);
+  const auto light = [&](const char* texture) {
+    return cleaned("lightmap", "scene_lightmap.obj", texture, "lightmap_ref.exr", "lightmap");
+  };
+  const auto at_16 = light("lightmap_noisy_16spp.exr"), at_4 = light("lightmap_noisy_4spp.exr");
+  CHECK(at_16["light"]["log_psnr"].get<double>() > 29);
+  CHECK(at_16["light"]["rel_mse"].get<double>() < 0.0171);
+  CHECK(at_4["light"]["log_psnr"].get<double>() > 26.3);
+  CHECK(at_4["light"]["rel_mse"].get<double>() < 0.027);
+  CHECK(light("lightmap_ref.exr")["light"]["log_psnr"].get<double>() > 40);
+  // Where the surface is smooth seams are no worse than other edges.
+  const auto residual = at_16["seam_residual"];
+  CHECK(residual["rms_at_seams"].get<double>() < 1.1 * residual["rms_inside"].get<double>());
 }

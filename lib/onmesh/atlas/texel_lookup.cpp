@@ -27,10 +27,7 @@ LookupTexels TexelLookup::around(Index face, const Vec2& at) const {
     add(tile.texel(there), weight, own);
     sum += float(weight);
   }
-  if (own.count == 0) {
-    any.in_chart = false;
-    return any;
-  }
+  if (own.count == 0) return any;
   for (float& weight : own.weights) weight /= sum;
   return own;
 }

@@ -13,7 +13,6 @@ struct LookupTexels {
   std::array<Index, 4> texels{};
   std::array<float, 4> weights{};
   int count = 0;
-  bool in_chart = true;  ///< else the chart covers none of them
 };
 
 /// Bilinear look-ups among those texels around a place that one chart covers; if there are none,

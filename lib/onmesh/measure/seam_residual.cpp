@@ -15,7 +15,7 @@ class Residual {
  public:
   Residual(const TriangleMesh& mesh, const TexelMap& map, const std::vector<const Image*>& a,
            const std::vector<const Image*>& b, const std::vector<bool>& counted)
-      : mesh_(mesh), map_(map), counted_(counted), lookup_(map) {
+      : mesh_(mesh), map_(map), counted_(counted), lookup_(map), places_(map) {
     for (const Image* image : a) a_.add(*image);
     for (const Image* image : b) b_.add(*image);
   }
@@ -27,8 +27,8 @@ class Residual {
     const auto points = std::size_t(std::ceil(std::min(2 * length / texel, 1e6)));
     for (std::size_t p = 0; p < points; ++p) {
       const double t = (double(p) + 0.5) / double(points);
-      const LookupTexels one = beside(seam.side, t);
-      const LookupTexels two = beside(seam.other_side, seam.opposed ? 1 - t : t);
+      const Place one = beside(seam.side, t);
+      const Place two = beside(seam.other_side, seam.opposed ? 1 - t : t);
       for (int c = 0; c < a_.channels(); ++c) {
         const double error =
             (mean(a_, one, c) - mean(a_, two, c)) - (mean(b_, one, c) - mean(b_, two, c));
@@ -44,8 +44,14 @@ class Residual {
 
   bool counts(Index texel) const { return counted_.empty() || counted_[texel]; }
 
-  /// What is looked up half a texel inside a face, beside a point of its edge.
-  LookupTexels beside(Index side, double t) const {
+  /// What is looked up on one side.
+  struct Place {
+    Index face;
+    LookupTexels around;
+  };
+
+  /// Half a texel inside a face, beside a point of its edge.
+  Place beside(Index side, double t) const {
     const Index face = side / 3, k = side % 3;
     const Vec3 a = corner(face, k), b = corner(face, k + 1), c = corner(face, k + 2);
     const Vec3 along = b - a;
@@ -59,16 +65,19 @@ class Residual {
     weights[k] = 1 - inside - weights[(k + 1) % 3];
     const Vec2 uv = interpolate(mesh_.corner_uvs(face), Vec3(weights[0], weights[1], weights[2]));
     const TexelTile tile = map_.tile_of(face);
-    return lookup_.around(face, {uv.x() * tile.width - 0.5, (1 - uv.y()) * tile.height - 0.5});
+    return {face,
+            lookup_.around(face, {uv.x() * tile.width - 0.5, (1 - uv.y()) * tile.height - 0.5})};
   }
 
-  /// Not a number if nothing of the chart counts there.
-  double mean(const ConstTexelValues& values, const LookupTexels& at, int channel) const {
+  /// Not a number if none of the face's own texels counts there. Those of the next face are left
+  /// out, as at a seam there are none: else means would be over fewer texels there.
+  double mean(const ConstTexelValues& values, const Place& at, int channel) const {
     double sum = 0, weight = 0;
-    for (std::size_t k = 0; k < std::size_t(at.count) && at.in_chart; ++k) {
-      if (!counts(at.texels[k])) continue;
-      sum += double(at.weights[k]) * values[at.texels[k]][channel];
-      weight += at.weights[k];
+    for (std::size_t k = 0; k < std::size_t(at.around.count); ++k) {
+      const Index texel = at.around.texels[k];
+      if (places_.face(texel) != at.face || !counts(texel)) continue;
+      sum += double(at.around.weights[k]) * values[texel][channel];
+      weight += at.around.weights[k];
     }
     return sum / weight;
   }
@@ -77,6 +86,7 @@ class Residual {
   const TexelMap& map_;
   const std::vector<bool>& counted_;
   const TexelLookup lookup_;
+  const TexelPlaces places_;
   ConstTexelValues a_, b_;
 };
 

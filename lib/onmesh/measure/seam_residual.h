@@ -25,7 +25,7 @@ struct SeamResidual {
 /// told apart.
 ///
 /// On both sides of an edge, at two points per texel along it, values are looked up half a texel
-/// inside, among texels that the chart covers and that count.
+/// inside, among the texels of that face that count.
 /// \param a, b one image per tile of the map, with the same channels
 /// \param counted per texel of all tiles; empty = all
 /// \pre mesh and map belong together
