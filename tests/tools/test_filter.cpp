@@ -38,7 +38,8 @@ TEST_CASE("filter refuses parameters outside their domain with 2", "[tools][filt
   check_refused(space, base + "--sigma-spatial 0", 2, "--sigma-spatial");
   check_refused(space, base + "--sigma-spatial -1", 2, "--sigma-spatial");
   check_refused(space, base + "--sigma-spatial nan", 2, "--sigma-spatial");
-  check_refused(space, base + "--sigma-range 0", 2, "--sigma-range: \"0\" is not a positive number");
+  check_refused(space, base + "--sigma-range 0", 2,
+                "--sigma-range: \"0\" is not a positive number");
   check_refused(space, base + "--sigma-range nan", 2, "--sigma-range");
   check_refused(space, base + "--radius 0", 2, "--radius");
   check_refused(space, base + "--gutter -1", 2, "--gutter");

@@ -21,15 +21,9 @@ struct SurfaceWork {
   const NodeMesh& nodes;
   const DistanceBackend& backend;
   const FilterSamples& samples;
+  const FaceNeighbours* neighbours;  ///< null: nothing asks, or samples are no texels
 
-  NearWork near() const {
-    return {setup,
-            nodes,
-            backend,
-            samples.sources,
-            samples.targets(),
-            options.samples == SampleKind::texel};
-  }
+  NearWork near() const { return {nodes, backend, samples.sources, samples.targets(), neighbours}; }
 };
 
 /// The features of a run: in range space, smoothed, and scaled so that one width serves all.

@@ -219,6 +219,12 @@ void refuse_nothing(const WorkingValues& working) {
   throw InputError("no texel on the surface has a value: there is nothing to filter");
 }
 
+/// Despiking and medians look at each texel's neighbours.
+bool asks_for_neighbours(const FilterOptions& options) {
+  return options.despike > 0 || std::any_of(options.guides.begin(), options.guides.end(),
+                                            [](const Guide& g) { return g.median.has_value(); });
+}
+
 /// What all sums have in common.
 PatchWork patch_work(const SurfaceWork& surface, const WorkingValues& working, double range_width) {
   const FilterOptions& options = surface.options;
@@ -318,7 +324,11 @@ std::vector<Image> run_filter(const TriangleMesh& mesh, const SurfaceTextures& t
 
     const auto backend = make_backend(options.distance, setup.mesh, surface.nodes);
     note_backend(*backend, options.distance, setup.cleaning, report);
-    const SurfaceWork work{mesh, textures, setup, options, surface.nodes, *backend, samples};
+    std::optional<FaceNeighbours> neighbours;
+    if (options.samples == SampleKind::texel && asks_for_neighbours(options))
+      neighbours.emplace(setup, samples.sources);
+    const SurfaceWork work{mesh,          textures, setup,   options,
+                           surface.nodes, *backend, samples, neighbours ? &*neighbours : nullptr};
     stages.begin("features");
     take_spikes(work, working, report);
     const Features features(work, working, report);

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "onmesh/base/parallel.h"
-#include "onmesh/filter/face_neighbours.h"
 #include "onmesh/filter/patch_tables.h"
 #include "onmesh/kernel/near_samples.h"
 
@@ -26,15 +25,14 @@ std::vector<unsigned char> visit_within_faces(const NearWork& work,
                                               const VisitNear& visit) {
   const auto& targets = work.targets.samples;
   std::vector<unsigned char> is_done(targets.size(), 0);
-  if (!work.are_texels) return is_done;
-  const FaceNeighbours neighbours(work.prepared, work.samples);
+  if (work.neighbours == nullptr) return is_done;
   over_blocks(targets.size(), [&](std::size_t begin, std::size_t end) {
     FaceNeighbours::Offsets offsets;
     std::vector<Index> near;
     for (std::size_t k = begin; k < end; ++k) {
       const double radius = radius_of(targets[k]);
       if (!(radius > 0)) continue;
-      if (!neighbours.find(targets[k].texel, radius * kSlack, offsets, near)) continue;
+      if (!work.neighbours->find(targets[k].texel, radius * kSlack, offsets, near)) continue;
       is_done[k] = 1;
       visit(Index(k), near);
     }

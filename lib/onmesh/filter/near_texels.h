@@ -5,7 +5,7 @@
 #include <span>
 
 #include "onmesh/distance/backend.h"
-#include "onmesh/filter/prepare_mesh.h"
+#include "onmesh/filter/face_neighbours.h"
 #include "onmesh/samples/samples.h"
 
 namespace onmesh {
@@ -16,12 +16,12 @@ using VisitNear = std::function<void(Index target, std::span<const Index> texels
 
 /// What is near what.
 struct NearWork {
-  const PreparedMesh& prepared;
   const NodeMesh& nodes;
   const DistanceBackend& backend;
   const Samples& samples;
   const Samples& targets;
-  bool are_texels = false;  ///< every texel on the surface is a sample once, where it counts
+  /// Where every texel on the surface is a sample once, if it counts; null: samples are others.
+  const FaceNeighbours* neighbours = nullptr;
 };
 
 /// Visit all targets that have a radius above 0. Where samples are texels and a face holds all that

@@ -19,7 +19,8 @@ constexpr Index kEnough = 1 << 18;  ///< texels
 /// \pre there are some
 double deviation(std::vector<float>& differences, NoiseBy by) {
   if (by == NoiseBy::mean) {
-    // Where all is equal nothing was measured: what is fully lit says nothing of the noise elsewhere.
+    // Where all is equal nothing was measured: what is fully lit says nothing of the noise
+    // elsewhere.
     const auto equal = std::count(differences.begin(), differences.end(), 0.F);
     const double sum = std::accumulate(differences.begin(), differences.end(), 0.0);
     return sum / std::max(double(differences.size()) - double(equal), 1.0) / kMeanOfGaussian;

@@ -16,7 +16,7 @@ struct RangeWidth {
   };
   double value = 0;           ///< > 0
   Unit unit = Unit::feature;  ///< of the value
-  double power = 1;  ///< of the noise: beyond 1, what is hardly noisy is hardly filtered
+  double power = 1;           ///< of the noise: beyond 1, what is hardly noisy is hardly filtered
 
   RangeWidth() = default;
   /// In the features' own unit.

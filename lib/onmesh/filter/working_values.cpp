@@ -274,18 +274,26 @@ void WorkingValues::find_mean_light() {
 }
 
 double WorkingValues::mean_light_of(int first_channel, int channels) const {
-  double sum = 0, weight = 0;
-  for (Index f = 0; f + 1 < map_.face_offsets.size(); ++f) {
+  struct Part {
     double logs = 0, count = 0;
+  };
+  // By faces, so that sums do not depend on the threads.
+  std::vector<Part> parts(map_.face_offsets.size() - 1);
+  parallel_over(parts.size(), [&](std::size_t face) {
+    const auto f = Index(face);
+    Part& part = parts[face];
     for (Index k = map_.face_offsets[f]; k < map_.face_offsets[f + 1]; ++k) {
       const Index texel = map_.tile_of(f).texel(map_.claims[k]);
       const double light = luminance_of(straight_.values_of(texel) + first_channel, channels);
       if (!(light > 0) || !std::isfinite(light)) continue;
-      logs += std::log(light);
-      ++count;
+      part.logs += std::log(light);
+      ++part.count;
     }
-    sum += logs * map_.texel_area[f];
-    weight += count * map_.texel_area[f];
+  });
+  double sum = 0, weight = 0;
+  for (Index f = 0; f < parts.size(); ++f) {
+    sum += parts[f].logs * map_.texel_area[f];
+    weight += parts[f].count * map_.texel_area[f];
   }
   return weight > 0 ? std::exp(sum / weight) : 1;
 }
