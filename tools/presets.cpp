@@ -25,7 +25,10 @@ const std::vector<Preset>& presets() {
         {"guide", "self:blur=2tx:0.6m"},
         {"guide", "self:9m^1.5"},
         {"guide", "surface-normal:0.35"}}},
-      {"scan", "photo textures of scans", false, {{"sigma-spatial", "3tx"}, {"guide", "self:2n"}}},
+      {"scan",
+       "photo textures of scans",
+       false,
+       {{"sigma-spatial", "3tx"}, {"guide", "self:blur=1tx:1m"}, {"guide", "self:3m"}}},
       {"blur", "an even blur without seams", false, {{"kind", "gaussian"}}},
   };
   return list;
