@@ -71,6 +71,7 @@ void read_files(const Arguments& arguments, const GuideRequest& wanted, const Su
   spaces.role = wanted.role;
   if (arguments.flag("raw")) spaces.name = "raw";
   std::vector<std::shared_ptr<const ColourSpace>> chosen;
+  bool is_data = false;
   for (const SetTexture& texture : set.textures) {
     guide.images.push_back(read_texture(texture, warnings));
     Image& image = guide.images.back();
@@ -83,6 +84,7 @@ void read_files(const Arguments& arguments, const GuideRequest& wanted, const Su
                        " channels, and normals have three");
     }
     chosen.push_back(choice.space);
+    is_data |= choice.name == "data";
     check_interrupted();
   }
   guide.guide.textures = surface_textures(set, guide.images, inputs.wrap);
@@ -91,6 +93,8 @@ void read_files(const Arguments& arguments, const GuideRequest& wanted, const Su
     guide.guide.textures.tiles[i].premultiplied =
         is_premultiplied(guide.images[i]) && guide.images[i].alpha_channel >= 0;
   }
+  const int channels = int(guide.images[0].range_channels().size());
+  guide.guide.textures.maps = {{wanted.name, channels, is_data}};
   guide.guide.mesh = guide.mesh.get();
 }
 

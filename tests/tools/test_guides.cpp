@@ -118,6 +118,7 @@ TEST_CASE("what is wrong about guides and maps is said in one line", "[tools][gu
   refused("-t n=albedo.png@normal-gl", "it may be a guide");
   refused("-t b=rough.png --guide self:1", "several maps");
   refused("-t b=rough.png --guide a:1", "would both be written");
+  refused("--guide rough.png@colour:0.1 --range-space oklab", "oklab is for three channels");
   refused("--preset photo", "'photo' is not one of lightmap, ao");
   refused("--iterations 0", "--iterations");
   refused("--guides-from result", "--iterations of 2 or more");

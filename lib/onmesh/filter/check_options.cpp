@@ -36,6 +36,8 @@ void check_width(const char* option, const RangeWidth& width) {
 
 void check_guide(const Guide& guide) {
   const std::string option = "guide " + guide.name;
+  if (guide.kind == Guide::Kind::images && guide.textures.tiles.empty())
+    throw OptionError(option, "has no image");
   if (guide.kind == Guide::Kind::surface_position) {
     require_positive(option.c_str(), guide.length.value);
   } else {

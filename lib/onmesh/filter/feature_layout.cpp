@@ -1,6 +1,9 @@
 #include "onmesh/filter/feature_layout.h"
 
 #include <algorithm>
+#include <string>
+
+#include "onmesh/base/error.h"
 
 namespace onmesh {
 namespace {
@@ -20,7 +23,8 @@ bool has_own_features(const SurfaceTextures& textures, const FilterOptions& opti
   }
 }
 
-FeatureSlot slot_of(const Guide& guide, const std::vector<MapChannels>& maps) {
+/// \throw OptionError if colours have no such range space
+FeatureSlot slot_of(const Guide& guide, const std::vector<MapChannels>& maps, RangeSpace space) {
   FeatureSlot slot;
   slot.guide = &guide;
   switch (guide.kind) {
@@ -34,10 +38,15 @@ FeatureSlot slot_of(const Guide& guide, const std::vector<MapChannels>& maps) {
       break;
     case Guide::Kind::images:
       slot.channels = int(guide.textures.tiles[0].image->range_channels().size());
-      slot.is_colour = guide.meaning == Guide::Meaning::values;
+      slot.is_colour =
+          guide.meaning == Guide::Meaning::values && !maps_of(guide.textures)[0].is_data;
       break;
     default:
       slot.channels = 3;
+  }
+  if (slot.is_colour && space == RangeSpace::oklab && slot.channels != 3) {
+    throw OptionError("range_space", "oklab is for three channels, and guide " + guide.name +
+                                         " has " + std::to_string(slot.channels));
   }
   return slot;
 }
@@ -63,7 +72,8 @@ FeatureLayout::FeatureLayout(const SurfaceTextures& textures, const FilterOption
     own.channels = int(textures.tiles[0].image->range_channels().size());
     own.is_colour = true;
   }
-  for (const Guide& guide : options.guides) slots.push_back(slot_of(guide, maps));
+  for (const Guide& guide : options.guides)
+    slots.push_back(slot_of(guide, maps, options.range_space));
   std::stable_partition(slots.begin(), slots.end(),
                         [](const FeatureSlot& slot) { return !slot.is_own_value(); });
   for (FeatureSlot& slot : slots) {

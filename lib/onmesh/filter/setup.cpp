@@ -112,7 +112,11 @@ FilterSetup set_up_filter(const TriangleMesh& mesh, const SurfaceTextures& textu
   check_arrays(mesh);
   check_options(options, mesh.faces.size());
   check_textures(textures, mesh.faces.size(),
-                 options.kind == FilterKind::bilateral ? options.range_space : RangeSpace::code);
+                 options.kind == FilterKind::bilateral && options.guides.empty()
+                     ? options.range_space
+                     : RangeSpace::code);
+  for (const Guide& guide : options.guides)
+    if (guide.kind == Guide::Kind::images) check_textures(guide.textures, mesh.faces.size());
   if (options.filter_alpha) check_alpha(textures);
   FilterSetup setup{prepare_mesh(mesh, textures, options), {}, {}, {}, false, {}};
   std::vector<std::string> names;
