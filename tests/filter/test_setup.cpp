@@ -64,7 +64,8 @@ TEST_CASE("the plan tells what the filter then does", "[setup][filter][slow]") {
   CHECK(texels_in_disk < 850);
   std::vector<std::string> stages;
   for (const StageTime& time : report.stages) stages.push_back(time.stage);
-  CHECK(stages == std::vector<std::string>{"texel map", "refine", "samples", "filter", "gutter"});
+  CHECK(stages ==
+        std::vector<std::string>{"texel map", "refine", "samples", "features", "filter", "gutter"});
 }
 
 TEST_CASE("runs that take more memory than they may are refused before the work", "[setup]") {
