@@ -129,14 +129,19 @@ std::uint64_t Arguments::bytes(const std::string& name) const {
   return std::uint64_t(result);
 }
 
-std::vector<double> Arguments::numbers(const std::string& name, std::size_t count) const {
-  const std::string whole = text(name);
-  std::vector<double> list;
+std::vector<double> numbers_in(const std::string& option, const std::string& list) {
+  std::vector<double> numbers;
   std::size_t begin = 0;
   for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
-    comma = whole.find(',', begin);
-    list.push_back(parse_number(name, whole.substr(begin, comma - begin)));
+    comma = list.find(',', begin);
+    numbers.push_back(parse_number(option, list.substr(begin, comma - begin)));
   }
+  return numbers;
+}
+
+std::vector<double> Arguments::numbers(const std::string& name, std::size_t count) const {
+  const std::string whole = text(name);
+  std::vector<double> list = numbers_in(name, whole);
   if (list.size() != count)
     throw UsageError(dashed(name) + ": '" + whole + "' is not " + std::to_string(count) +
                      " numbers with commas between them");

@@ -20,8 +20,10 @@ namespace onmesh::tools {
 class Arguments {
  public:
   /// \param usage the subcommand's name and synopsis, for messages
-  Arguments(std::string usage, boost::program_options::variables_map values)
-      : usage_(std::move(usage)), values_(std::move(values)) {}
+  /// \param as_given all that stood on the command line behind the subcommand
+  Arguments(std::string usage, boost::program_options::variables_map values,
+            std::vector<std::string> as_given)
+      : usage_(std::move(usage)), values_(std::move(values)), as_given_(std::move(as_given)) {}
 
   /// Whether there is a value, be it the default.
   bool has(const std::string& name) const { return values_.count(name) > 0; }
@@ -29,6 +31,9 @@ class Arguments {
   bool given(const std::string& name) const;
   /// Options with their values in force: text, texts or flags.
   const boost::program_options::variables_map& values() const { return values_; }
+
+  /// All that stood on the command line behind the subcommand.
+  const std::vector<std::string>& as_given() const { return as_given_; }
 
   /// Give an option another default, as --preset does.
   /// \param value text, or one of several texts
@@ -81,6 +86,11 @@ class Arguments {
  private:
   std::string usage_;
   boost::program_options::variables_map values_;
+  std::vector<std::string> as_given_;
 };
+
+/// Finite numbers with commas between them.
+/// \throw UsageError naming the option
+std::vector<double> numbers_in(const std::string& option, const std::string& list);
 
 }  // namespace onmesh::tools

@@ -123,7 +123,7 @@ std::optional<Arguments> parse(const Command& command, const std::vector<std::st
     po::variables_map values;
     po::store(parsed, values);
     po::notify(values);
-    return Arguments(usage, std::move(values));
+    return Arguments(usage, std::move(values), arguments);
   } catch (const po::unknown_option& error) {
     throw UsageError(unknown_option(options, error.get_option_name()));
   } catch (const po::multiple_occurrences& error) {

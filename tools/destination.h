@@ -50,9 +50,10 @@ class Destination {
 /// texel of a glTF file can change, it is written as it is. The inputs' warnings and stages, the
 /// report's own and those of writing are told together in the end: in inputs.warnings and
 /// report.stages.
+/// \return the results, per texture
 template <class Report, class Work>
-void make_and_write(SurfaceInputs& inputs, Destination& to, bool quiet, Stopwatch& watch,
-                    Report& report, const Work& work) {
+std::vector<Image> make_and_write(SurfaceInputs& inputs, Destination& to, bool quiet,
+                                  Stopwatch& watch, Report& report, const Work& work) {
   std::vector<Image> results;
   if (std::string why = why_nothing(inputs, to.is_gltf()); !why.empty()) {
     inputs.warnings.push_back(std::move(why));
@@ -68,6 +69,7 @@ void make_and_write(SurfaceInputs& inputs, Destination& to, bool quiet, Stopwatc
   report.stages.insert(report.stages.begin(), inputs.stages.begin(), inputs.stages.end());
   report.stages.push_back(stage("write texture", watch));
   if (!quiet) warn(inputs.warnings);
+  return results;
 }
 
 /// The beginning of a command's JSON report: options, mesh, textures with what was assumed of them.

@@ -63,9 +63,9 @@ double default_spacing(const TriangleMesh& mesh, double radius) {
   return options.spacing;
 }
 
-DistanceSource source_at_vertex(const InputMesh& input, std::int64_t vertex) {
+DistanceSource source_at_vertex(const InputMesh& input, std::int64_t vertex, const char* option) {
   const std::size_t count = input.as_read.positions.size();
-  const std::string name = "--vertex: " + std::to_string(vertex);
+  const std::string name = dashed(option) + ": " + std::to_string(vertex);
   if (vertex < 0 || std::uint64_t(vertex) >= count)
     throw UsageError(name + ": " + input.path + " has vertices 0 to " + std::to_string(count - 1));
   // Welding merges what is equal, so the position tells which vertex it became.
@@ -84,7 +84,7 @@ DistanceSource source_at_vertex(const InputMesh& input, std::int64_t vertex) {
   throw UsageError(name + ": no face of " + input.path + " that is part of the surface uses it");
 }
 
-DistanceSource source_at_uv(const TriangleMesh& mesh, const Vec2& uv) {
+DistanceSource source_at_uv(const TriangleMesh& mesh, const Vec2& uv, const char* option) {
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     if (!mesh.has_uvs(f)) continue;
     const auto c = mesh.corner_uvs(f);
@@ -101,7 +101,7 @@ DistanceSource source_at_uv(const TriangleMesh& mesh, const Vec2& uv) {
       }
     }
   }
-  throw UsageError("--uv: no UV triangle holds " + format_number(uv.x()) + "," +
+  throw UsageError(dashed(option) + ": no UV triangle holds " + format_number(uv.x()) + "," +
                    format_number(uv.y()));
 }
 
@@ -173,21 +173,27 @@ std::vector<double> node_distances(const TriangleMesh& mesh, const NodeSurface& 
   return distances;
 }
 
+double distance_at(const NodeMesh& nodes, const NodePoint& place,
+                   const std::vector<double>& at_nodes) {
+  const auto& corners = nodes.faces[place.face];
+  const Vec3& b = place.barycentric;
+  double squared = -barycentric_variance(nodes.lengths[place.face], b);
+  for (int k = 0; k < 3; ++k) {
+    if (b[k] != 0) squared += b[k] * at_nodes[corners[k]] * at_nodes[corners[k]];
+  }
+  return std::isnan(squared) ? kNaN : std::sqrt(std::max(squared, 0.0));
+}
+
 std::vector<Image> distance_texture(const TexelMap& map, const NodeSurface& surface,
                                     const std::vector<double>& at_nodes, double radius) {
   DistanceTexture texture(map);
   const Samples samples = texel_samples(map, surface);
   for (Index f = 0; f < surface.nodes.faces.size(); ++f) {
-    const auto& corners = surface.nodes.faces[f];
     for (Index s = samples.face_offsets[f]; s < samples.face_offsets[f + 1]; ++s) {
       const Sample& sample = samples.samples[s];
       const Vec3 b(1.0 - sample.b1 - sample.b2, sample.b1, sample.b2);
-      double squared = -barycentric_variance(surface.nodes.lengths[f], b);
-      for (int k = 0; k < 3; ++k) {
-        if (b[k] != 0) squared += b[k] * at_nodes[corners[k]] * at_nodes[corners[k]];
-      }
-      const double d = std::sqrt(std::max(squared, 0.0));
-      if (!std::isnan(squared) && d <= radius) texture.take_least(sample.texel, d);
+      const double d = distance_at(surface.nodes, {f, b}, at_nodes);
+      if (d <= radius) texture.take_least(sample.texel, d);
     }
   }
   return texture.finish();

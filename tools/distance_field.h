@@ -19,11 +19,12 @@ struct DistanceSource {
 };
 
 /// Vertex of the file, from 0.
+/// \param option which names it, for messages
 /// \throw UsageError if there is none or no face is left around it
-DistanceSource source_at_vertex(const InputMesh& input, std::int64_t vertex);
+DistanceSource source_at_vertex(const InputMesh& input, std::int64_t vertex, const char* option);
 /// The first face whose UV triangle, moved by whole tiles, holds the UV.
 /// \throw UsageError if none does
-DistanceSource source_at_uv(const TriangleMesh& mesh, const Vec2& uv);
+DistanceSource source_at_uv(const TriangleMesh& mesh, const Vec2& uv, const char* option);
 /// The closest point of the surface.
 DistanceSource source_at_point(const TriangleMesh& mesh, const Vec3& point);
 
@@ -44,6 +45,11 @@ std::vector<double> node_distances(const TriangleMesh& mesh, const NodeSurface& 
 
 /// Distances beyond the radius become NaN.
 void forget_beyond(double radius, std::vector<double>& distances);
+
+/// Distance at a place in a node face, interpolated so that it is right for a point straight ahead
+/// in a plane; NaN if a corner's is not known.
+double distance_at(const NodeMesh& nodes, const NodePoint& place,
+                   const std::vector<double>& at_nodes);
 
 /// Distance per texel (the least one where several places share it), interpolated from the nodes;
 /// NaN where no chart covers it or a corner's distance is not known. One image per tile.

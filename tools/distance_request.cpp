@@ -83,11 +83,11 @@ DistanceRequest read_distance_request(const Arguments& arguments) {
 
 DistanceSource find_source(const Arguments& arguments, const InputMesh& input) {
   if (arguments.has("vertex")) {
-    return source_at_vertex(input, arguments.integer("vertex", 0, INT64_MAX));
+    return source_at_vertex(input, arguments.integer("vertex", 0, INT64_MAX), "vertex");
   }
   if (arguments.has("uv")) {
     const auto uv = arguments.numbers("uv", 2);
-    return source_at_uv(input.cleaned, {uv[0], uv[1]});
+    return source_at_uv(input.cleaned, {uv[0], uv[1]}, "uv");
   }
   const auto p = arguments.numbers("point", 3);
   return naming(input.path, [&] { return source_at_point(input.cleaned, {p[0], p[1], p[2]}); });

@@ -18,6 +18,8 @@
 #include "stopwatch.h"
 #include "subcommands.h"
 #include "surface_inputs.h"
+#include "viewer/filter_page.h"
+#include "viewer/page_writer.h"
 
 namespace onmesh::tools {
 
@@ -44,6 +46,7 @@ Command filter_command() {
       "  onmesh filter model.obj -t ao.png -o ao_clean.png --preset ao\n"
       "  onmesh filter model.obj -t albedo=a.png -t rough=r.png@data -o 'out/{map}.{ext}' \\\n"
       "    --guide albedo:0.1\n"
+      "  onmesh filter model.obj -o smooth.png --report page.html\n"
       "  onmesh filter model.obj -o smooth.png --dry-run\n";
   auto add = command.options.add_options();
   add("mesh", text());
@@ -117,6 +120,10 @@ Command filter_command() {
   add("max-memory", text(),
       "refuse what would take more, such as 8G (default: what there is and what is left)");
   add("dry-run", flag(), "check everything, tell what would be done, write nothing");
+  add("report", text(),
+      "write a page (.html) to look at in a browser, too: the model before and after, its seams "
+      "and "
+      "differences, and the numbers of the run");
   add("json", flag(), "print a report as JSON on stdout");
   add("quiet", flag(), "no progress, summary or warnings");
   command.positional.add("mesh", 1);
@@ -225,6 +232,11 @@ FilterOptions with_guides(FilterOptions options, const SurfaceInputs& inputs) {
   return options;
 }
 
+void check_page_name(const std::string& path) {
+  if (!is_page_name(path)) throw UsageError("--report: " + path + ": a page ends in .html");
+  check_writable_file(path);
+}
+
 void tell_plan(const Arguments& arguments, const FilterOptions& options, SurfaceInputs& inputs,
                const Destination& to, json out) {
   if (const std::string why = why_nothing(inputs, to.is_gltf()); !why.empty()) {
@@ -256,10 +268,15 @@ void filter_and_write(const Arguments& arguments, const FilterOptions& options,
                       SurfaceInputs& inputs, Destination& to, json out, Stopwatch& watch) {
   const bool quiet = arguments.flag("quiet");
   FilterReport report;
-  make_and_write(inputs, to, quiet, watch, report, [&](const Progress& progress) {
-    return filter_maps(inputs.mesh, library_maps(inputs), with_guides(options, inputs), &report,
-                       progress);
-  });
+  std::vector<Image> results =
+      make_and_write(inputs, to, quiet, watch, report, [&](const Progress& progress) {
+        return filter_maps(inputs.mesh, library_maps(inputs), with_guides(options, inputs), &report,
+                           progress);
+      });
+  if (arguments.has("report")) {
+    write_filter_page(arguments.text("report"), arguments, inputs, to, std::move(results), report,
+                      watch.total());
+  }
   if (!quiet && report.texels > 0) print_summary(report, watch.total(), std::cerr);
   if (arguments.flag("json")) {
     out.update(to_json(report));
@@ -278,6 +295,8 @@ int run_filter(const Arguments& given) {
   const bool dry_run = arguments.flag("dry-run");
   const std::string output = dry_run && !arguments.has("output") ? "" : arguments.text("output");
   const FilterOptions options = filter_options(arguments);
+
+  if (arguments.has("report") && !dry_run) check_page_name(arguments.text("report"));
 
   Stopwatch watch;
   SurfaceInputs inputs = read_surface(arguments, watch);

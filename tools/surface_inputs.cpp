@@ -6,6 +6,7 @@
 #include "command.h"
 #include "guides.h"
 #include "interruption.h"
+#include "map_files.h"
 #include "messages.h"
 #include "onmesh/base/process_memory.h"
 #include "onmesh/image/channels.h"
@@ -118,10 +119,8 @@ void read_images(const Arguments& arguments, bool has_slot, InputMap& map, Surfa
 }
 
 /// The images of glTF materials for a slot, or what -t says of one map.
-struct MapRequest {
-  std::string name;
+struct MapRequest : MapFiles {
   TextureSlot slot = TextureSlot::base_colour;
-  std::vector<std::string> files;
 };
 
 constexpr std::pair<TextureSlot, const char*> kSlots[] = {
@@ -131,36 +130,18 @@ constexpr std::pair<TextureSlot, const char*> kSlots[] = {
     {TextureSlot::metallic_roughness, "metallicRoughness"},
     {TextureSlot::normal, "normal"}};
 
-/// -t by maps, in the order in which these are named first.
-std::vector<MapRequest> maps_of_files(const std::vector<std::string>& files) {
-  std::vector<MapRequest> maps;
-  for (const std::string& file : files) {
-    const NamedTexture texture = split_texture(file);
-    const auto same = std::find_if(maps.begin(), maps.end(),
-                                   [&](const MapRequest& m) { return m.name == texture.map; });
-    MapRequest& map = same != maps.end() ? *same : maps.emplace_back();
-    map.name = texture.map;
-    map.files.push_back(texture.map.empty() ? file : file.substr(texture.map.size() + 1));
-    if (is_reserved_guide(texture.map))
-      throw UsageError("--texture: " + file + ": '" + texture.map + "' is a guide's name");
-  }
-  const bool some_have_none =
-      std::any_of(maps.begin(), maps.end(), [](const MapRequest& m) { return m.name.empty(); });
-  if (maps.size() > 1 && some_have_none)
-    throw UsageError("--texture: " + maps.back().files[0] +
-                     ": of several maps all have a name: MAP=FILE");
-  return maps;
-}
-
 std::vector<MapRequest> requested_maps(const Arguments& arguments) {
   const bool all_slots = arguments.text("slot") == "all";
   if (arguments.has("texture")) {
     if (all_slots) throw UsageError("--slot all: the mesh's own textures, so not with -t");
-    return maps_of_files(arguments.texts("texture"));
+    std::vector<MapRequest> maps;
+    for (MapFiles& files : maps_of_files(arguments.texts("texture")))
+      maps.push_back({std::move(files)});
+    return maps;
   }
-  if (!all_slots) return {{"", slot_of(arguments), {}}};
+  if (!all_slots) return {{{}, slot_of(arguments)}};
   std::vector<MapRequest> maps;
-  for (const auto& [slot, name] : kSlots) maps.push_back({name, slot, {}});
+  for (const auto& [slot, name] : kSlots) maps.push_back({{name, {}}, slot});
   return maps;
 }
 

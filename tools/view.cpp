@@ -1,9 +1,7 @@
 // onmesh view: a picture of the textured model, before and after, or of distances.
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <optional>
-#include <set>
 
 #include "inputs.h"
 #include "interruption.h"
@@ -18,19 +16,27 @@
 #include "subcommands.h"
 #include "texture_set.h"
 #include "tile_names.h"
+#include "viewer/page_writer.h"
+#include "viewer/view_page.h"
+#include "worn_textures.h"
 
 namespace onmesh::tools {
 
 Command view_command() {
   Command command;
   command.name = "view";
-  command.synopsis = "(MESH | --flat) -o PICTURE [-t TEXTURE [--after TEXTURE]...] [options]";
+  command.synopsis =
+      "(MESH | --flat) -o PAGE.html | PICTURE [-t TEXTURE]... [--after TEXTURE]... [options]";
   command.summary =
-      "Renders the mesh with a texture, or with the textures of its own materials without -t; "
-      "with\n"
-      "--after further pictures beside it; or coloured by a scalar per vertex with isolines. With\n"
-      "--flat the textures themselves are shown instead of the model.";
+      "Shows the mesh with a texture, or with the textures of its own materials without -t, and\n"
+      "with --after what became of them. A page that ends in .html opens in any browser and needs\n"
+      "nothing else: turn the model, compare before and after, see seams, differences, distances\n"
+      "and the texel under the cursor. A picture has the states beside each other, or the mesh\n"
+      "coloured by a scalar per vertex with isolines; with --flat the textures themselves.";
   command.examples =
+      "  onmesh view cube.obj -t cube.png --after filtered.png -o page.html\n"
+      "  onmesh view figure.obj --after smooth/ --after rough/ -o page.html\n"
+      "  onmesh view cube.obj --distances vertex:0 --distances uv:0.2,0.6 --nodes 5% -o page.html\n"
       "  onmesh view cube.obj -t cube.png --after filtered.png -o picture.png\n"
       "  onmesh view cube.obj -t cube.png --after a.png --after b.png --size 400 -o three.png\n"
       "  onmesh view figure.obj --after smooth/ -o figure.png\n"
@@ -39,7 +45,7 @@ Command view_command() {
       "  onmesh view cube.obj --distance-ply distance.ply --isolines 0.1 -o distance.png\n";
   auto add = command.options.add_options();
   add("mesh", text());
-  add("output,o", text(), "the picture to write");
+  add("output,o", text(), "the page (.html) or picture to write");
   add("texture,t", texts(),
       "texture for all faces; several, or a name with <UDIM> or {material}, for those that wear "
       "them (default: what the mesh's materials name)");
@@ -64,6 +70,12 @@ Command view_command() {
   add("no-light", flag(), "texture values as they are, without shading");
   add("wireframe", flag(), "draw the mesh's edges");
   add("face-materials", flag(), "one flat colour per material");
+  add("target", text(), "X,Y,Z: the point in the middle (default: the model is framed)");
+  add("extent", text(), "with --target: mesh units from bottom to top there");
+  add("distances", texts(),
+      "page: geodesic distances from vertex:N, uv:U,V or point:X,Y,Z; may be given several times");
+  add("samples", text(), "page: Poisson-disk samples so far apart: mesh units, 2tx or 1%");
+  add("nodes", text(), "page: the nodes between which distances are computed, so far apart");
   command.positional.add("mesh", 1);
   return command;
 }
@@ -92,6 +104,14 @@ RenderOptions render_options(const Arguments& arguments) {
   options.wireframe = arguments.flag("wireframe");
   options.up = axis(arguments.text("up"));
   options.wrap = wrap_of(arguments);
+  if (arguments.has("target")) {
+    const auto p = arguments.numbers("target", 3);
+    options.target = Vec3(p[0], p[1], p[2]);
+  }
+  if (arguments.has("extent")) {
+    options.extent = arguments.number("extent");
+    if (!(options.extent > 0)) throw UsageError("--extent: must be more than 0");
+  }
   return options;
 }
 
@@ -100,11 +120,22 @@ void check_combination(const Arguments& arguments) {
   arguments.refuse_together("face-materials", {"texture", "after", "wrap"});
   arguments.refuse_together(
       "flat", {"distance-ply", "face-materials", "wrap", "confine", "slot", "uv-set", "height",
-               "azimuth", "elevation", "zoom", "up", "no-light", "wireframe"});
+               "azimuth", "elevation", "zoom", "up", "no-light", "wireframe", "target", "extent"});
   if (arguments.flag("flat") && arguments.has("mesh"))
     throw UsageError("--flat shows textures without a mesh; leave out '" + arguments.text("mesh") +
                      "' or --flat");
   arguments.require_with({"property", "isolines"}, "distance-ply");
+  arguments.require_with({"extent"}, "target");
+  const bool page = is_page_name(arguments.text("output"));
+  for (const char* name : {"distances", "samples", "nodes"}) {
+    if (!page && arguments.given(name))
+      throw UsageError(dashed(name) + ": only for a page: -o PAGE.html");
+  }
+  for (const char* name : {"flat", "distance-ply", "size", "height", "supersampling", "no-light",
+                           "wireframe", "face-materials"}) {
+    if (page && arguments.given(name))
+      throw UsageError(dashed(name) + ": only for pictures; the page has controls of its own");
+  }
 }
 
 // The scalar may have a value per vertex of the file or per vertex once they are welded.
@@ -115,94 +146,6 @@ void fit_to_scalar(TriangleMesh& mesh, std::size_t values, const std::string& pa
   if (values != mesh.positions.size())
     throw InputError("--distance-ply: " + path + " has " + std::to_string(values) +
                      " vertices, the mesh has " + std::to_string(as_read));
-}
-
-/// A mesh with the textures that it wears.
-class WornTextures {
- public:
-  /// \param mesh outlives this
-  explicit WornTextures(const TriangleMesh& mesh) {
-    set_.tile_of_face.assign(mesh.faces.size(), kNone);
-  }
-
-  void add(const TextureSet& set);
-  /// Ready to be drawn: with UVs of each face's own tile.
-  TriangleMesh local(const TriangleMesh& mesh) const;
-  const TextureSet& set() const { return set_; }
-  /// The model with these textures in the place of the set's. It is worth seeing even if one of
-  /// them got lost: that part stays grey. \param local_mesh what local() gives
-  Image picture(const TriangleMesh& local_mesh, const std::vector<SetTexture>& textures,
-                const RenderOptions& options) const;
-
- private:
-  TextureSet set_;
-};
-
-void WornTextures::add(const TextureSet& set) {
-  const auto first = Index(set_.textures.size());
-  set_.textures.insert(set_.textures.end(), set.textures.begin(), set.textures.end());
-  for (Index f = 0; f < set.tile_of_face.size(); ++f) {
-    if (set.tile_of_face[f] != kNone) set_.tile_of_face[f] = first + set.tile_of_face[f];
-  }
-}
-
-TriangleMesh WornTextures::local(const TriangleMesh& mesh) const {
-  std::vector<TextureTile> tiles;
-  for (const SetTexture& texture : set_.textures)
-    tiles.push_back({nullptr, {}, texture.column(), texture.row(), {}});
-  TriangleMesh result = mesh;
-  if (!tiles.empty()) make_uvs_local(tiles, set_.tile_of_face, result);
-  return result;
-}
-
-Image WornTextures::picture(const TriangleMesh& local_mesh, const std::vector<SetTexture>& textures,
-                            const RenderOptions& options) const {
-  std::vector<std::unique_ptr<Image>> images;
-  for (const SetTexture& texture : textures) {
-    images.push_back(nullptr);
-    check_interrupted();
-    std::vector<std::string> odd;
-    try {
-      images.back() = std::make_unique<Image>(read_texture(texture, odd));
-    } catch (const FileError& error) {
-      warn(error.what());
-    } catch (const InputError& error) {
-      warn(error.what());
-    }
-    warn(odd);
-  }
-  RenderColour colour;
-  for (const Index tile : set_.tile_of_face)
-    colour.face_textures.push_back(tile == kNone ? nullptr : images[tile].get());
-  return render(local_mesh, colour, options);
-}
-
-/// What -t says, or what the mesh's materials name.
-WornTextures worn_textures(const TriangleMesh& mesh, const std::vector<std::string>& files,
-                           const std::optional<std::filesystem::path>& confined_to) {
-  WornTextures worn(mesh);
-  if (!files.empty()) {
-    const TextureSet set = choose_textures(mesh, {files, {}, {}});
-    warn(set.warnings);
-    worn.add(set);
-    return worn;
-  }
-  std::set<std::string> done;
-  for (const Material& material : mesh.materials) {
-    if (material.texture.empty() || !done.insert(material.texture).second) continue;
-    try {
-      const TextureSet set = choose_textures(mesh, {{material.texture}, {}, {}, confined_to});
-      warn(set.warnings);
-      worn.add(set);
-    } catch (const FileError& error) {
-      warn(error.what());
-    } catch (const InputError& error) {
-      warn(error.what());
-    } catch (const UsageError&) {
-      // No face wears it.
-    }
-  }
-  return worn;
 }
 
 std::vector<Image> flat_pictures(const Arguments& arguments, const RenderOptions& options) {
@@ -320,6 +263,10 @@ int run_view(const Arguments& arguments) {
   const std::string output = arguments.text("output");
   const RenderOptions options = render_options(arguments);
   check_combination(arguments);
+  if (is_page_name(output)) {
+    write_view_page(arguments, options);
+    return 0;
+  }
   check_writable_image(output, make_image(1, 1, 3));
   const std::vector<Image> pictures =
       arguments.flag("flat") ? flat_pictures(arguments, options)

@@ -50,8 +50,17 @@ Camera::Camera(const TriangleMesh& mesh, const RenderOptions& options) {
   forward_ = -direction;
   right_ = std::cos(azimuth) * side - std::sin(azimuth) * zero;
   up_ = right_.cross(forward_);
-  eye_ = centre + radius / std::sin(kFieldOfView / 2) * direction;
-  frame(mesh, options);
+  if (!options.target) {
+    eye_ = centre + radius / std::sin(kFieldOfView / 2) * direction;
+    frame(mesh, options);
+    return;
+  }
+  const double extent = (options.extent > 0 ? options.extent : 2 * radius) / options.zoom;
+  const double distance = extent / 2 / std::tan(kFieldOfView / 2);
+  eye_ = *options.target + distance * direction;
+  focal_ = options.height * distance / extent;
+  offset_ = Vec2(options.width, options.height) / 2;
+  nearest_ = 1e-3 * distance;
 }
 
 void Camera::frame(const TriangleMesh& mesh, const RenderOptions& options) {
@@ -75,9 +84,15 @@ Vec3 Camera::view(const Vec3& p) const {
   return {d.dot(right_), d.dot(up_), d.dot(forward_)};
 }
 
-Vec3 Camera::project(const Vec3& p) const {
-  const Vec3 q = view(p);
+Vec3 Camera::project_view(const Vec3& q) const {
   return {offset_.x() + focal_ * q.x() / q.z(), offset_.y() - focal_ * q.y() / q.z(), q.z()};
+}
+
+std::vector<ViewPlane> Camera::cutting_planes(const RenderOptions& options) const {
+  if (nearest_ == 0) return {};
+  // A picture's size beyond each border is enough for lines along faces to stay as they are.
+  const double x = 1.5 * options.width / focal_, y = 1.5 * options.height / focal_;
+  return {{{0, 0, 1}, -nearest_}, {{1, 0, x}, 0}, {{-1, 0, x}, 0}, {{0, 1, y}, 0}, {{0, -1, y}, 0}};
 }
 
 }  // namespace onmesh

@@ -13,6 +13,7 @@
 #include "onmesh/base/triangle.h"
 #include "onmesh/image/lookup.h"
 #include "onmesh/render/camera.h"
+#include "onmesh/render/clip.h"
 #include "onmesh/render/raster.h"
 #include "onmesh/render/texture_view.h"
 
@@ -31,6 +32,10 @@ void check(const TriangleMesh& mesh, const RenderColour& colour, const RenderOpt
   if (!std::isfinite(options.azimuth_degrees)) throw UsageError("view: azimuth must be finite");
   if (!(options.zoom > 0 && options.zoom <= 1000))
     throw UsageError("view: zoom must be in (0, 1000]");
+  if (options.target && !options.target->allFinite())
+    throw UsageError("view: target must be finite");
+  if (!(options.extent >= 0 && std::isfinite(options.extent)))
+    throw UsageError("view: extent must be a length");
   if (!within(options.supersampling, 1, 8))
     throw UsageError("view: supersampling must be between 1 and 8");
   // Products of coordinates in 256ths of a pixel must fit into 64 bits.
@@ -89,16 +94,33 @@ Vec3 flat_colour(Index i) {
   return colour;
 }
 
+/// A face, or a part of one, on the screen.
+struct DrawnTriangle {
+  ScreenTriangle screen;
+  Index face;
+  FacePart part;
+  bool is_whole;
+
+  /// Barycentric coordinates in the face; perspective-correct, extrapolated outside.
+  Vec3 weights(double px, double py) const {
+    const Vec3 w = screen.weights(px, py);
+    return is_whole ? w : Vec3(w[0] * part[0] + w[1] * part[1] + w[2] * part[2]);
+  }
+  /// Distance in samples to the face's edge k.
+  double edge_distance(int k, double px, double py) const {
+    if (is_whole) return screen.edge_distance(k, px, py);
+    const int opposite = (k + 2) % 3;
+    const double dx = weights(px + 0.5, py)[opposite] - weights(px - 0.5, py)[opposite];
+    const double dy = weights(px, py + 0.5)[opposite] - weights(px, py - 0.5)[opposite];
+    return std::abs(weights(px, py)[opposite]) / std::max(std::hypot(dx, dy), 1e-300);
+  }
+};
+
 class Scene {
  public:
   Scene(const TriangleMesh& mesh, const RenderColour& colour, const RenderOptions& options)
       : mesh_(mesh), colour_(colour), options_(options), camera_(mesh, options) {
-    triangles_.resize(mesh.faces.size());
-    tbb::parallel_for(std::size_t(0), mesh.faces.size(), [&](std::size_t f) {
-      std::array<Vec3, 3> corners = mesh.corners(Index(f));
-      for (Vec3& p : corners) p = camera_.project(p);
-      triangles_[f] = make_screen_triangle(corners, options.supersampling);
-    });
+    project_faces();
     if (options.light) normals_ = corner_normals(mesh);
     if (colour.scalar != nullptr) find_range();
     sort_into_bands();
@@ -111,6 +133,35 @@ class Scene {
   }
 
  private:
+  void project_faces() {
+    const std::vector<ViewPlane> planes = camera_.cutting_planes(options_);
+    triangles_.reserve(mesh_.faces.size());
+    for (Index f = 0; f < mesh_.faces.size(); ++f) {
+      std::array<Vec3, 3> corners = mesh_.corners(f);
+      for (Vec3& p : corners) p = camera_.view(p);
+      const bool is_whole = std::all_of(planes.begin(), planes.end(), [&](const ViewPlane& plane) {
+        return std::all_of(corners.begin(), corners.end(),
+                           [&](const Vec3& q) { return plane.normal.dot(q) + plane.offset >= 0; });
+      });
+      if (is_whole) {
+        add_triangle(f, corners, whole_face(), true);
+        continue;
+      }
+      for (const FacePart& part : clip_face(corners, planes)) {
+        std::array<Vec3, 3> cut;
+        for (std::size_t k = 0; k < 3; ++k) cut[k] = interpolate(corners, part[k]);
+        add_triangle(f, cut, part, false);
+      }
+    }
+  }
+
+  /// \param corners of the part, in the view
+  void add_triangle(Index face, std::array<Vec3, 3> corners, const FacePart& part, bool is_whole) {
+    for (Vec3& p : corners) p = camera_.project_view(p);
+    triangles_.push_back(
+        {make_screen_triangle(corners, options_.supersampling), face, part, is_whole});
+  }
+
   void find_range() {
     low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
     for (const auto& face : mesh_.faces) {
@@ -127,13 +178,13 @@ class Scene {
     const std::int64_t rows =
         std::int64_t(kBandRows) * options_.supersampling * ScreenTriangle::kSubpixel;
     const auto last_band = std::int64_t(bands_.size()) - 1;
-    for (Index f = 0; f < triangles_.size(); ++f) {
-      const auto [low, high] =
-          std::minmax({triangles_[f].y[0], triangles_[f].y[1], triangles_[f].y[2]});
-      if (triangles_[f].twice_area == 0 || high < 0) continue;
+    for (Index t = 0; t < triangles_.size(); ++t) {
+      const ScreenTriangle& screen = triangles_[t].screen;
+      const auto [low, high] = std::minmax({screen.y[0], screen.y[1], screen.y[2]});
+      if (screen.twice_area == 0 || high < 0) continue;
       const std::int64_t first = std::max<std::int64_t>(low, 0) / rows,
                          last = std::min(high / rows, last_band);
-      for (std::int64_t band = first; band <= last; ++band) bands_[std::size_t(band)].push_back(f);
+      for (std::int64_t band = first; band <= last; ++band) bands_[std::size_t(band)].push_back(t);
     }
   }
 
@@ -148,7 +199,7 @@ class Scene {
         std::size_t(band.width) * std::size_t(band.last_row - band.first_row);
     band.face.assign(samples, kNone);
     band.inverse.assign(samples, 0);
-    for (const Index f : bands_[number]) draw_face(triangles_[f], f, band);
+    for (const Index t : bands_[number]) draw_face(triangles_[t].screen, t, band);
 
     std::vector<float> buffer;
     for (int y = first; y < last; ++y) {
@@ -157,9 +208,10 @@ class Scene {
         for (int j = 0; j < s; ++j) {
           for (int i = 0; i < s; ++i) {
             const int sx = x * s + i, sy = y * s + j;
-            const Index f = band.face[std::size_t(sy - band.first_row) * std::size_t(band.width) +
+            const Index t = band.face[std::size_t(sy - band.first_row) * std::size_t(band.width) +
                                       std::size_t(sx)];
-            sum += f == kNone ? options_.background : shade(f, sx + 0.5, sy + 0.5, buffer);
+            sum +=
+                t == kNone ? options_.background : shade(triangles_[t], sx + 0.5, sy + 0.5, buffer);
           }
         }
         float* pixel = picture.texel(Index(y) * Index(options_.width) + Index(x));
@@ -168,10 +220,11 @@ class Scene {
     }
   }
 
-  Vec3 shade(Index f, double px, double py, std::vector<float>& buffer) const {
-    const Vec3 weights = triangles_[f].weights(px, py).cwiseMax(0);
+  Vec3 shade(const DrawnTriangle& drawn, double px, double py, std::vector<float>& buffer) const {
+    const Index f = drawn.face;
+    const Vec3 weights = drawn.weights(px, py).cwiseMax(0);
     const Vec3 b = weights / weights.sum();
-    Vec3 colour = surface_colour(f, b, px, py, buffer);
+    Vec3 colour = surface_colour(drawn, b, px, py, buffer);
     if (options_.light) {
       const Vec3 at = interpolate(mesh_.corners(f), b), normal = interpolate(normals_[f], b);
       const double length = normal.norm() * (camera_.eye() - at).norm();
@@ -180,8 +233,7 @@ class Scene {
     }
     if (options_.wireframe) {
       double nearest = std::numeric_limits<double>::infinity();
-      for (int k = 0; k < 3; ++k)
-        nearest = std::min(nearest, triangles_[f].edge_distance(k, px, py));
+      for (int k = 0; k < 3; ++k) nearest = std::min(nearest, drawn.edge_distance(k, px, py));
       // Half a line on either side of the edge, its border softened over a pixel.
       const double ink = std::clamp(1 - nearest / options_.supersampling, 0.0, 1.0);
       colour += 0.75 * ink * (Vec3(0.05, 0.05, 0.1) - colour);
@@ -189,9 +241,10 @@ class Scene {
     return colour;
   }
 
-  Vec3 surface_colour(Index f, const Vec3& b, double px, double py,
+  Vec3 surface_colour(const DrawnTriangle& drawn, const Vec3& b, double px, double py,
                       std::vector<float>& buffer) const {
-    if (colour_.scalar != nullptr) return scalar_colour(f, b, px, py);
+    const Index f = drawn.face;
+    if (colour_.scalar != nullptr) return scalar_colour(drawn, b, px, py);
     const Index material = mesh_.face_materials.empty() ? kNone : mesh_.face_materials[f];
     if (colour_.by_material) return material == kNone ? kGrey : flat_colour(material);
     const Image* texture = colour_.texture;
@@ -204,7 +257,8 @@ class Scene {
     return display_colour(buffer.data(), texture->channels);
   }
 
-  Vec3 scalar_colour(Index f, const Vec3& b, double px, double py) const {
+  Vec3 scalar_colour(const DrawnTriangle& drawn, const Vec3& b, double px, double py) const {
+    const Index f = drawn.face;
     Vec3 s;
     for (int k = 0; k < 3; ++k) s[k] = (*colour_.scalar)[mesh_.faces[f][unsigned(k)]];
     if (!s.allFinite()) return kGrey;
@@ -214,10 +268,8 @@ class Scene {
     // Isolines one and a half pixels wide: the distance to the nearest one is that of the values
     // over the slope per pixel. Where lines would run together they fade.
     const double pixel = options_.supersampling;
-    const double dx =
-        triangles_[f].weights(px + 1, py).dot(s) - triangles_[f].weights(px - 1, py).dot(s);
-    const double dy =
-        triangles_[f].weights(px, py + 1).dot(s) - triangles_[f].weights(px, py - 1).dot(s);
+    const double dx = drawn.weights(px + 1, py).dot(s) - drawn.weights(px - 1, py).dot(s);
+    const double dy = drawn.weights(px, py + 1).dot(s) - drawn.weights(px, py - 1).dot(s);
     const double slope = std::hypot(dx, dy) / 2 * pixel;
     if (!(slope > 0)) return colour;
     const double lines = (value - low_) / step_;
@@ -234,7 +286,7 @@ class Scene {
   const RenderColour& colour_;
   const RenderOptions& options_;
   Camera camera_;
-  std::vector<ScreenTriangle> triangles_;
+  std::vector<DrawnTriangle> triangles_;
   std::vector<std::array<Vec3, 3>> normals_;
   std::vector<std::vector<Index>> bands_;
   double low_ = 0, high_ = 0, step_ = 0;

@@ -1,6 +1,7 @@
 // Pictures of textured models, on the CPU.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "onmesh/image/image.h"
@@ -16,12 +17,16 @@ struct RenderOptions {
   double azimuth_degrees = 35;    ///< camera direction around `up`; 0 = from +z (+y up), -y (+z up)
   double elevation_degrees = 25;  ///< above the horizon, [-90, 90]
   double zoom = 1;                ///< 1 = the model fills the picture, (0, 1000]
-  int supersampling = 2;          ///< samples per pixel and direction, [1, 8]
-  bool light = true;              ///< soft headlight shading; off shows texture values as they are
-  bool wireframe = false;         ///< draw the mesh's edges
-  WrapModes wrap;                 ///< what UVs outside [0,1] mean where materials do not say
-  Vec3 background{1, 1, 1};       ///< a colour in [0,1]
-  Vec3 up{0, 1, 0};               ///< a direction of the mesh's space, of any length
+  /// The point in the middle of the picture, mesh units; none = the model is framed.
+  std::optional<Vec3> target = std::nullopt;
+  /// With `target`: mesh units that the picture's height is there, > 0; 0 = the model's size.
+  double extent = 0;
+  int supersampling = 2;     ///< samples per pixel and direction, [1, 8]
+  bool light = true;         ///< soft headlight shading; off shows texture values as they are
+  bool wireframe = false;    ///< draw the mesh's edges
+  WrapModes wrap;            ///< what UVs outside [0,1] mean where materials do not say
+  Vec3 background{1, 1, 1};  ///< a colour in [0,1]
+  Vec3 up{0, 1, 0};          ///< a direction of the mesh's space, of any length
 };
 
 /// What colours the surface. The first that is set counts: a scalar per vertex with isolines, flat
