@@ -1,6 +1,7 @@
 #include "onmesh/atlas/texel_places.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "onmesh/base/parallel.h"
 
@@ -11,15 +12,25 @@ TexelPlaces::TexelPlaces(const TexelMap& map)
   over_blocks(faces_.size(), [&](std::size_t begin, std::size_t end) {
     std::fill(faces_.begin() + std::ptrdiff_t(begin), faces_.begin() + std::ptrdiff_t(end), kNone);
   });
-  for (Index f = 0; f + 1 < map.face_offsets.size(); ++f) {
-    const TexelTile tile = map.tile_of(f);
+  // Of several claims the lowest face's counts, of those its first.
+  const std::size_t faces = map.face_offsets.size() - 1;
+  parallel_over(faces, [&](std::size_t f) {
+    const TexelTile tile = map.tile_of(Index(f));
     for (Index k = map.face_offsets[f]; k < map.face_offsets[f + 1]; ++k) {
-      const Index texel = tile.texel(map.claims[k]);
-      if (faces_[texel] != kNone) continue;
-      faces_[texel] = f;
-      claims_[texel] = map.claims[k];
+      const std::atomic_ref<Index> face(faces_[tile.texel(map.claims[k])]);
+      Index before = face.load(std::memory_order_relaxed);
+      while (Index(f) < before &&
+             !face.compare_exchange_weak(before, Index(f), std::memory_order_relaxed)) {
+      }
     }
-  }
+  });
+  parallel_over(faces, [&](std::size_t f) {
+    const TexelTile tile = map.tile_of(Index(f));
+    for (Index k = map.face_offsets[f + 1]; k-- > map.face_offsets[f];) {
+      const Index texel = tile.texel(map.claims[k]);
+      if (faces_[texel] == f) claims_[texel] = map.claims[k];
+    }
+  });
 }
 
 Index TexelPlaces::in_chart_of(Index face, const TexelTile& tile, const TexelClaim& place) const {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "onmesh/base/parallel.h"
+#include "onmesh/filter/area_mean.h"
 #include "onmesh/filter/percentile.h"
 #include "onmesh/filter/range_space.h"
 #include "onmesh/filter/results.h"
@@ -180,15 +181,11 @@ std::vector<Spike> find_spikes(const NearWork& work, const std::vector<Judge>& j
 /// Over the surface, of all maps together.
 double mean_brightness(const Samples& samples, const std::vector<Judge>& judges,
                        const std::vector<float>& changes) {
-  double sum = 0, area = 0;
-  for (const Sample& s : samples.samples) {
+  return area_mean(samples, [&](const Sample& s) {
     double own = changes.empty() ? 0 : changes[s.texel];
     for (const Judge& judge : judges) own += judge.brightness(s.texel);
-    if (!std::isfinite(own)) continue;
-    sum += s.area * own / double(judges.size());
-    area += s.area;
-  }
-  return area > 0 ? sum / area : 0;
+    return own / double(judges.size());
+  });
 }
 
 }  // namespace

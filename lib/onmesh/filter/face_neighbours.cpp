@@ -25,6 +25,13 @@ void FaceNeighbours::list_steps(Index face, double radius, Offsets& offsets) con
   offsets.radius = radius;
   offsets.steps.clear();
   const auto corner = prepared_.mesh.corners(face);
+  // Coordinates are shares of the heights.
+  const double twice_area = 2 * prepared_.mesh.face_area(face);
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 &one = corner[std::size_t(k + 1) % 3], &two = corner[std::size_t(k + 2) % 3];
+    offsets.margins[k] = radius * (two - one).norm() / twice_area;
+  }
+  if (offsets.margins.sum() > 1) return;  // there is no such texel
   const Eigen::Matrix3d& m = prepared_.map.to_barycentric(face);
   Vec3 column = Vec3::Zero(), row = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {
@@ -47,16 +54,10 @@ bool FaceNeighbours::find(Index texel, double radius, Offsets& offsets,
                           std::vector<Index>& near) const {
   const Index face = places_.face(texel);
   if (face == kNone) return false;
-  // Distances to the edges: shares of the heights.
-  const TexelClaim& claim = places_.claim(texel);
-  const Vec3 at = prepared_.map.barycentric(face, claim);
-  const auto corner = prepared_.mesh.corners(face);
-  const double area = 2 * prepared_.mesh.face_area(face);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double opposite = (corner[(k + 1) % 3] - corner[(k + 2) % 3]).norm();
-    if (at[int(k)] * area < radius * opposite) return false;
-  }
   if (offsets.face != face || offsets.radius != radius) list_steps(face, radius, offsets);
+  const TexelClaim& claim = places_.claim(texel);
+  const Vec3 at = prepared_.map.to_barycentric(face) * Vec3(claim.x + 0.5, claim.y + 0.5, 1);
+  if ((at.array() < offsets.margins.array()).any()) return false;
   const TexelTile tile = prepared_.map.tile_of(face);
   if (offsets.steps.empty() || claim.x < offsets.most_x || claim.y < offsets.most_y ||
       claim.x + offsets.most_x >= tile.width || claim.y + offsets.most_y >= tile.height)

@@ -20,6 +20,7 @@ class FaceNeighbours {
   struct Offsets {
     Index face = kNone;
     double radius = 0;
+    Vec3 margins;  ///< least barycentric coordinates of texels that are the radius from all edges
     std::vector<TexelClaim> steps;  ///< columns and rows, without the texel itself
     int most_x = 0, most_y = 0;     ///< of those
   };

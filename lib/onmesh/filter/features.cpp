@@ -1,14 +1,17 @@
 #include "onmesh/filter/features.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
 
+#include "onmesh/base/large_array.h"
 #include "onmesh/base/parallel.h"
 #include "onmesh/filter/guide_features.h"
+#include "onmesh/filter/medians.h"
 #include "onmesh/filter/noise.h"
 #include "onmesh/filter/patch_loop.h"
-#include "onmesh/filter/percentile.h"
 #include "onmesh/filter/results.h"
 #include "onmesh/filter/shared_results.h"
 
@@ -31,40 +34,37 @@ double in_features(const RangeWidth& width, const Colours& features, const Texel
   return result > 0 ? result : kNoNoise * robust_extent(features, map);
 }
 
+/// Called with a texel and what its features become. From any thread; every covered texel once.
+using WriteFeatures = std::function<void(Index texel, const float* values)>;
+
 /// The median of each channel around every target, its own texel's among them.
-std::vector<float> medians(const SurfaceWork& work, const Colours& features, double radius) {
-  const auto channels = std::size_t(features.channels);
-  const Samples& targets = work.samples.targets();
-  std::vector<float> result(work.setup.map.coverage.size() * channels);
-  SharedResults shared(work.setup.overlap, targets, channels);
-  const auto write = [&](Index texel, const float* values) {
-    std::copy_n(values, channels, &result[std::size_t(texel) * channels]);
+void find_medians(const SurfaceWork& work, const Colours& features, double radius,
+                  const WriteFeatures& write) {
+  struct Thread {
+    Medians medians;
+    std::vector<float> own;
   };
+  const auto channels = std::size_t(features.channels);
+  tbb::enumerable_thread_specific<Thread> threads([&] {
+    return Thread{Medians(features), std::vector<float>(channels)};
+  });
+  const Samples& targets = work.samples.targets();
+  SharedResults shared(work.setup.overlap, targets, channels);
   visit_near_texels(
       work.near(), [&](const Sample&) { return radius; },
       [&](Index target, std::span<const Index> around) {
-        thread_local std::vector<float> own, values;
-        own.resize(channels);
+        auto& [medians, own] = threads.local();
         const Index texel = targets.samples[target].texel;
-        for (std::size_t c = 0; c < channels; ++c) {
-          values.clear();
-          const auto add = [&](Index t) {
-            const float value = features.values_of(t)[c];
-            if (std::isfinite(value)) values.push_back(value);
-          };
-          add(texel);
-          for (const Index t : around) add(t);
-          own[c] = values.empty() ? std::numeric_limits<float>::quiet_NaN() : median_of(values);
-        }
+        medians.find(texel, around, own.data());
         shared.store(target, target + 1, own.data(),
                      [&](Index, const float* median) { write(texel, median); });
       });
   shared.merge(write);
-  return result;
 }
 
 /// The mean of features around every target, weighted by distance alone.
-std::vector<float> blurred(const SurfaceWork& work, const Colours& features, double sigma) {
+void blur(const SurfaceWork& work, const Colours& features, double sigma,
+          const WriteFeatures& write) {
   PatchWork sums;
   sums.nodes = &work.nodes;
   sums.backend = &work.backend;
@@ -81,12 +81,7 @@ std::vector<float> blurred(const SurfaceWork& work, const Colours& features, dou
     sums.tolerance = work.options.tolerance * robust_extent(features, work.setup.map);
     sums.hot_faces = hot_faces(features, work.setup.map, work.samples.sources);
   }
-  const auto channels = std::size_t(features.channels);
-  std::vector<float> means(work.setup.map.coverage.size() * channels);
-  SharedResults shared(work.setup.overlap, work.samples.targets(), channels);
-  const auto write = [&](Index texel, const float* values) {
-    std::copy_n(values, channels, &means[std::size_t(texel) * channels]);
-  };
+  SharedResults shared(work.setup.overlap, work.samples.targets(), std::size_t(features.channels));
   filter_patches(sums,
                  [&](Index begin, Index end, const float* values) {
                    shared.store(begin, end, values, [&](Index target, const float* own) {
@@ -95,7 +90,16 @@ std::vector<float> blurred(const SurfaceWork& work, const Colours& features, dou
                  },
                  {});
   shared.merge(write);
-  return means;
+}
+
+/// Whether both compare the same values, before they are smoothed.
+bool are_alike(const FeatureSlot& a, const FeatureSlot& b) {
+  return a.is_own() && b.is_own() && a.first_channel == b.first_channel &&
+         a.channels == b.channels && a.is_colour == b.is_colour;
+}
+
+bool is_smoothed(const FeatureSlot& slot) {
+  return slot.guide != nullptr && slot.guide->is_smoothed();
 }
 
 }  // namespace
@@ -147,23 +151,47 @@ double Features::width_of(const FeatureSlot& slot, FilterReport& report) {
 }
 
 void Features::smooth(bool again) {
-  for (const FeatureSlot& slot : working_.layout().slots) {
-    if (slot.guide == nullptr || !slot.guide->is_smoothed() || (again && !slot.is_own())) continue;
-    const Guide& guide = *slot.guide;
-    const double reach = resolve(guide.blur ? *guide.blur : *guide.median,
-                                 work_.setup.mesh_plan.texel_size, work_.setup.mesh_plan.diagonal) /
-                         work_.setup.unit;
-    const Colours features = working_.features(slot);
-    const std::vector<float> values =
-        guide.blur ? blurred(work_, features, reach) : medians(work_, features, reach);
-    const auto channels = std::size_t(slot.channels);
-    over_blocks(work_.setup.map.coverage.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; ++t)
-        if (work_.setup.map.coverage[t] == Coverage::covered)
-          std::copy_n(&values[t * channels], channels, working_.features_of(Index(t), slot));
-    });
-    fill_slot(slot, work_.setup.map, working_);
+  const auto& slots = working_.layout().slots;
+  for (std::size_t k = 0; k < slots.size(); ++k) {
+    if (!is_smoothed(slots[k]) || (again && !slots[k].is_own())) continue;
+    // Another slot that has, or still has, the same values saves a copy of them.
+    std::size_t same = 0;
+    while (same < slots.size() &&
+           !(are_alike(slots[same], slots[k]) && (same > k || !is_smoothed(slots[same]))))
+      ++same;
+    if (same < slots.size()) {
+      smooth(slots[k], working_.features(slots[same]));
+    } else {
+      smooth_in_place(slots[k]);
+    }
+    fill_slot(slots[k], work_.setup.map, working_);
   }
+}
+
+void Features::smooth(const FeatureSlot& slot, const Colours& features) {
+  const Guide& guide = *slot.guide;
+  const double reach = resolve(guide.blur ? *guide.blur : *guide.median,
+                               work_.setup.mesh_plan.texel_size, work_.setup.mesh_plan.diagonal) /
+                       work_.setup.unit;
+  const WriteFeatures write = [&](Index texel, const float* values) {
+    std::copy_n(values, features.channels, working_.features_of(texel, slot));
+  };
+  if (guide.blur) {
+    blur(work_, features, reach, write);
+  } else {
+    find_medians(work_, features, reach, write);
+  }
+}
+
+void Features::smooth_in_place(const FeatureSlot& slot) {
+  const auto channels = std::size_t(slot.channels), texels = work_.setup.map.coverage.size();
+  LargeArray<float> copy(texels * channels);
+  over_blocks(texels, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t)
+      std::copy_n(working_.features(slot).of(Index(t)), channels, &copy[t * channels]);
+  });
+  const Colours before = working_.features(slot);
+  smooth(slot, {copy.data(), slot.channels, 0, slot.channels, before.width});
 }
 
 void Features::scale(bool again) {

@@ -43,6 +43,9 @@ class Features {
  private:
   /// \param again only those of own values
   void smooth(bool again);
+  /// Smooth a slot's features, given as they are before that, elsewhere than in the slot.
+  void smooth(const FeatureSlot& slot, const Colours& features);
+  void smooth_in_place(const FeatureSlot& slot);
   void scale(bool again);
   double width_of(const FeatureSlot& slot, FilterReport& report);
 

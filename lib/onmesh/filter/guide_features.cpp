@@ -1,6 +1,7 @@
 #include "onmesh/filter/guide_features.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -238,8 +239,12 @@ std::uint64_t fill_slot(const FeatureSlot& slot, const TexelMap& map, WorkingVal
     return map.coverage[t] == Coverage::covered &&
            !std::all_of(own, own + slot.channels, [](float v) { return std::isfinite(v); });
   };
-  std::uint64_t missing = 0;
-  for (Index t = 0; t < map.coverage.size(); ++t) missing += is_missing(t);
+  std::atomic<std::uint64_t> missing = 0;
+  over_blocks(map.coverage.size(), [&](std::size_t begin, std::size_t end) {
+    std::uint64_t some = 0;
+    for (std::size_t t = begin; t < end; ++t) some += is_missing(Index(t));
+    missing += some;
+  });
   if (missing == 0) return 0;
   std::vector<Image> images;
   Index first = 0;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "onmesh/base/parallel.h"
+#include "onmesh/filter/area_mean.h"
 
 namespace onmesh {
 namespace {
@@ -16,37 +18,36 @@ double mean_of(const float* values, int channels) {
 
 }  // namespace
 
+/// \param values_of with a texel and what is to be called with its values
 template <class ValuesOf>
 std::vector<double> SurfaceMeans::means(const ValuesOf& values_of) const {
   std::vector<double> means;
   int first = 0;
   for (const MapChannels& map : maps_of(working_.textures())) {
-    double sum = 0, area = 0;
-    for (const Sample& s : samples_.samples) {
-      const float* const own = values_of(s.texel) + first;
-      const double value =
-          map.is_data ? mean_of(own, map.channels) : working_.luminance_of(own, map.channels);
-      if (!std::isfinite(value) || working_.was_missing(s.texel)) continue;
-      sum += s.area * value;
-      area += s.area;
-    }
-    means.push_back(area > 0 ? sum / area : 0);
+    means.push_back(area_mean(samples_, [&](const Sample& s) {
+      if (working_.was_missing(s.texel)) return std::numeric_limits<double>::quiet_NaN();
+      return values_of(s.texel, [&](const float* own) {
+        own += first;
+        return map.is_data ? mean_of(own, map.channels) : working_.luminance_of(own, map.channels);
+      });
+    }));
     first += map.channels;
   }
   return means;
 }
 
 SurfaceMeans::SurfaceMeans(const WorkingValues& working, const Samples& samples)
-    : working_(working),
-      samples_(samples),
-      means_(means([&](Index texel) { return working.straight().values_of(texel); })) {}
+    : working_(working), samples_(samples), means_(means([&](Index texel, const auto& use) {
+        return use(working.straight().values_of(texel));
+      })) {}
 
 void SurfaceMeans::give_to(const TexelValues& results, const ValueRange& range) const {
   const std::vector<int>& channels = working_.channels();
-  std::vector<float> own(channels.size());
-  const std::vector<double> now = means([&](Index texel) {
+  const std::vector<double> now = means([&](Index texel, const auto& use) {
+    thread_local std::vector<float> own;
+    own.resize(channels.size());
     for (std::size_t c = 0; c < channels.size(); ++c) own[c] = results[texel][channels[c]];
-    return own.data();
+    return use(own.data());
   });
   std::vector<float> factors;
   const std::vector<MapChannels> maps = maps_of(working_.textures());

@@ -22,17 +22,6 @@ inline float percentile(std::vector<float>& values, double share) {
 
 /// The middle value, or the mean of the two in the middle; reorders them.
 /// \pre there are some
-inline float median_of(std::vector<float>& values) {
-  constexpr std::size_t kFew = 24;  // so many are sorted fastest in the simplest way
-  if (values.size() > kFew) return percentile(values, 0.5);
-  for (std::size_t k = 1; k < values.size(); ++k) {
-    const float value = values[k];
-    std::size_t at = k;
-    for (; at > 0 && values[at - 1] > value; --at) values[at] = values[at - 1];
-    values[at] = value;
-  }
-  const std::size_t upper = values.size() / 2;
-  return values.size() % 2 == 1 ? values[upper] : (values[upper - 1] + values[upper]) / 2;
-}
+inline float median_of(std::vector<float>& values) { return percentile(values, 0.5); }
 
 }  // namespace onmesh

@@ -10,6 +10,8 @@
 #include <numeric>
 #include <utility>
 
+#include "onmesh/base/parallel.h"
+
 namespace onmesh {
 namespace {
 
@@ -117,14 +119,19 @@ std::pair<double, double> robust_range(const TexelMap& map, const std::vector<in
 template <class ValuesOf>
 double extent_of(const TexelMap& map, const std::vector<int>& channels, const ValuesOf& values_of) {
   const auto [low, high] = robust_range(map, channels, values_of);
-  double largest = 0;
-  for (Index t = 0; t < map.coverage.size(); ++t) {
-    if (map.coverage[t] != Coverage::covered) continue;
-    for (const int c : channels) {
-      const double value = std::abs(values_of(t)[c]);
-      if (std::isfinite(value)) largest = std::max(largest, value);
-    }
-  }
+  const double largest = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, map.coverage.size(), 16384), 0.0,
+      [&](const tbb::blocked_range<std::size_t>& part, double most) {
+        for (std::size_t t = part.begin(); t < part.end(); ++t) {
+          if (map.coverage[t] != Coverage::covered) continue;
+          for (const int c : channels) {
+            const double value = std::abs(values_of(Index(t))[c]);
+            if (std::isfinite(value)) most = std::max(most, value);
+          }
+        }
+        return most;
+      },
+      [](double x, double y) { return std::max(x, y); });
   const double extent = std::max(high - low, 1e-6 * largest);
   return extent > 0 ? extent : 1;
 }
@@ -168,20 +175,16 @@ std::vector<bool> hot_faces(const Colours& colours, const TexelMap& map, const S
   const auto [low, high] = robust_range(map, all_channels(colours),
                                         [&](Index texel) { return colours.values_of(texel); });
   const double extent = high - low, lowest = low - extent, highest = high + extent;
-  std::vector<bool> hot;
-  for (Index f = 0; f + 1 < sources.face_offsets.size(); ++f) {
-    for (Index k = sources.face_offsets[f]; k < sources.face_offsets[f + 1]; ++k) {
+  std::vector<unsigned char> is_hot(sources.face_offsets.size() - 1, 0);
+  parallel_over(is_hot.size(), [&](std::size_t f) {
+    for (Index k = sources.face_offsets[f]; k < sources.face_offsets[f + 1] && !is_hot[f]; ++k) {
       const float* const values = colours.values_of(sources.samples[k].texel);
-      const bool is_hot = std::any_of(values, values + colours.channels, [&](float value) {
-        return value > highest || value < lowest;
-      });
-      if (!is_hot) continue;
-      hot.resize(sources.face_offsets.size() - 1, false);
-      hot[f] = true;
-      break;
+      is_hot[f] = std::any_of(values, values + colours.channels,
+                              [&](float value) { return value > highest || value < lowest; });
     }
-  }
-  return hot;
+  });
+  const bool are_some = std::find(is_hot.begin(), is_hot.end(), 1) != is_hot.end();
+  return are_some ? std::vector<bool>(is_hot.begin(), is_hot.end()) : std::vector<bool>();
 }
 
 Results::Results(const OverlapPolicy& overlap, const Samples& targets, const WorkingValues& working,

@@ -65,9 +65,26 @@ KernelCounts run_channels(const KernelInput& input, const PatchRecords& records,
   }
 }
 
+KernelCounts run_features(const KernelInput& input, const PatchRecords& records,
+                          std::vector<float>& out) {
+  switch (records.channels) {
+    case 1:
+      return run_blocks<FeatureSums<1>>(input, records, out);
+    case 2:
+      return run_blocks<FeatureSums<2>>(input, records, out);
+    case 3:
+      return run_blocks<FeatureSums<3>>(input, records, out);
+    default:
+      return run_blocks<FeatureSums<4>>(input, records, out);
+  }
+}
+
 KernelCounts run_patch(const KernelInput& input, const PatchRecords& records,
                        std::vector<float>& out) {
-  if (!records.is_plain()) return run_blocks<AnySums>(input, records, out);
+  if (!records.is_plain()) {
+    const bool are_apart = records.first_value > 0 && records.channels <= 4;
+    return are_apart ? run_features(input, records, out) : run_blocks<AnySums>(input, records, out);
+  }
   return records.first_value > 0 ? run_channels<Compared::features>(input, records, out)
                                  : run_channels<Compared::values>(input, records, out);
 }

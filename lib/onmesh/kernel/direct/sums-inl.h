@@ -127,6 +127,80 @@ class Sums {
   V own_[kChannels], sum_[kChannels], weights_;
 };
 
+/// The same for up to 4 values with any number of features apart, all of which are compared.
+template <int kValues>
+class FeatureSums {
+ public:
+  HWY_INLINE FeatureSums(D d, const PatchRecords& records, const float* own, float* sums)
+      : own_(own),
+        stored_(sums),
+        features_(std::size_t(records.range_channels)),
+        first_value_(std::size_t(records.first_value)),
+        limit_(hn::Set(d, records.limit)),
+        weights_(hn::Zero(d)) {
+    for (int c = 0; c < kValues; ++c) sum_[c] = hn::Zero(d);
+  }
+
+  HWY_INLINE void add_sure(D d, const FaceExponents<V>& e, const float* HWY_RESTRICT record) {
+    const V x = hn::Add(interpolate(d, e, record), hn::Set(d, record[RecordField::exponent]));
+    add_weighted(d, exp2_of_any_units(d, add_likeness(d, record, x)), record);
+  }
+  HWY_INLINE std::size_t add_edge(D d, const FaceExponents<V>& e,
+                                  const float* HWY_RESTRICT record) {
+    const Spatial spatial(d, e, record);
+    const V x = hn::Add(spatial.distance, hn::Set(d, record[RecordField::exponent]));
+    return add_inside(d, spatial.inside, x, record);
+  }
+  HWY_INLINE std::size_t add(D d, const FaceExponents<V>& e, const float* HWY_RESTRICT record) {
+    const Spatial spatial(d, e, record);
+    return add_inside(d, spatial.inside, spatial.clamped_exponent(d, limit_, record), record);
+  }
+
+  HWY_INLINE void store(D d) const {
+    hn::Store(weights_, d, stored_);
+    for (int c = 0; c < kValues; ++c)
+      hn::Store(sum_[c], d, stored_ + std::size_t(c + 1) * hn::Lanes(d));
+  }
+
+ private:
+  HWY_INLINE std::size_t add_inside(D d, M inside, V x, const float* HWY_RESTRICT record) {
+    const V weight = exp2_of_any_units(d, add_likeness(d, record, x));
+    add_weighted(d, hn::IfThenElseZero(inside, weight), record);
+    return hn::CountTrue(d, inside);
+  }
+  /// x less the squared differences of features, in two chains of operations.
+  HWY_INLINE V add_likeness(D d, const float* HWY_RESTRICT record, V x) const {
+    const std::size_t lanes = hn::Lanes(d);
+    const float* const colour = record + RecordField::colour;
+    const auto difference = [&](std::size_t c) HWY_ATTR {
+      return hn::Sub(hn::Set(d, colour[c]), hn::Load(d, own_ + c * lanes));
+    };
+    V other = hn::Zero(d);
+    std::size_t c = 0;
+    for (; c + 1 < features_; c += 2) {
+      const V one = difference(c), two = difference(c + 1);
+      x = hn::NegMulAdd(one, one, x);
+      other = hn::NegMulAdd(two, two, other);
+    }
+    if (c < features_) {
+      const V one = difference(c);
+      x = hn::NegMulAdd(one, one, x);
+    }
+    return hn::Add(x, other);
+  }
+  HWY_INLINE void add_weighted(D d, V weight, const float* HWY_RESTRICT record) {
+    const float* const value = record + RecordField::colour + first_value_;
+    weights_ = hn::Add(weights_, weight);
+    for (int c = 0; c < kValues; ++c) sum_[c] = hn::MulAdd(weight, hn::Set(d, value[c]), sum_[c]);
+  }
+
+  const float* const own_;
+  float* const stored_;
+  const std::size_t features_, first_value_;
+  const V limit_;
+  V sum_[kValues], weights_;
+};
+
 /// The same for any number of channels, values or features of which any number takes part in the
 /// colour difference.
 class AnySums {

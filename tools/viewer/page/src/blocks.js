@@ -59,10 +59,11 @@ export async function read_block(reference) {
   return new Kind(bytes.buffer, 0, reference.count);
 }
 
-/// Decode coordinates: f32 as they are, others as origin + scale * value.
+/// Decode coordinates: origin + scale * value where the reference has them.
 export async function read_coordinates(reference, dimensions) {
   const values = await read_block(reference);
-  if (values instanceof Float32Array) return values;
+  const moved = reference.origin !== undefined || reference.scale !== undefined;
+  if (values instanceof Float32Array && !moved) return values;
   const along = (field, without) =>
     Array.from({length: dimensions}, (_, k) =>
       Array.isArray(reference[field]) ? reference[field][k] : (reference[field] ?? without),

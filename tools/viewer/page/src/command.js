@@ -30,7 +30,7 @@ function without_view(words) {
 
 /// \param camera {azimuth, elevation, target, extent}
 export function command_line(scene, camera) {
-  const words = scene.view_command ?? scene.created ?? [];
+  const words = scene.view_command?.length ? scene.view_command : (scene.created ?? []);
   const rest = without_view(words.slice(words[1] === 'view' ? 2 : 1));
   const view = [
     ['--azimuth', digits(camera.azimuth)],

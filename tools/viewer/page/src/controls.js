@@ -59,7 +59,7 @@ export function set_up_controls(scene, set) {
   });
 }
 
-const outputs = {
+const texts = {
   exposure: ({exposure}) => `${exposure > 0 ? '+' : ''}${exposure} stops`,
   checker: ({checker_power}) => `${2 ** checker_power} texels`,
   split: ({split}) => `${Math.round(100 * split)} %`,
@@ -70,7 +70,7 @@ const outputs = {
 export function show_controls(state, ends, exposed) {
   const {elements} = form();
   for (const element of elements) {
-    if (!(element.name in state) || element.tagName === 'OUTPUT') continue;
+    if (!(element.name in state)) continue;
     const value = state[element.name];
     if (element.type === 'checkbox') element.checked = value;
     else if (element.type === 'radio') element.checked = element.value === value;
@@ -78,10 +78,10 @@ export function show_controls(state, ends, exposed) {
       element.value = value;
   }
   const write = (name, text) => {
-    const output = form().querySelector(`output[name="${name}"]`);
-    if (output) output.textContent = text;
+    const place = form().querySelector(`[data-shows="${name}"]`);
+    if (place) place.textContent = text;
   };
-  for (const [name, text] of Object.entries(outputs)) write(name, text(state));
+  for (const [name, text] of Object.entries(texts)) write(name, text(state));
   const end = (share, x) => `${Math.round(100 * share)} %${x === null ? '' : ` = ${brief(x)}`}`;
   write('difference', end(state.difference_share, ends.difference));
   write('seam_error', end(state.seam_share, ends.seam_error));
@@ -100,6 +100,9 @@ export function show_controls(state, ends, exposed) {
   };
   for (const [name, use] of Object.entries(used)) {
     const input = form().querySelector(`:is(input, select)[name="${name}"]`);
-    if (input) input.disabled = !use;
+    if (!input) continue;
+    // Browsers drop all keys while the focus is on something disabled.
+    if (!use && input === document.activeElement) input.blur();
+    input.disabled = !use;
   }
 }

@@ -68,8 +68,10 @@ function size_text({width, height, shown}) {
 }
 
 export function show_difference_numbers(numbers) {
+  const table = by_id('difference-numbers');
+  if (!table) return; // nothing to compare
   const text = (of) => (numbers ? plain(of) : '–');
-  fill_table(by_id('difference-numbers').tBodies[0], [
+  fill_table(table.tBodies[0], [
     ['Largest', text(numbers?.max)],
     ['Root mean square', text(numbers?.rms)],
     ['PSNR', numbers ? `${plain(numbers.psnr_db)} dB` : '–'],

@@ -65,8 +65,9 @@ export class Stage {
   }
 
   box(pane) {
-    const {offsetLeft, offsetTop, offsetWidth, offsetHeight} = this.panes[pane];
-    return {left: offsetLeft, top: offsetTop, width: offsetWidth, height: offsetHeight};
+    const canvas = this.canvas.getBoundingClientRect();
+    const {left, top, width, height} = this.panes[pane].getBoundingClientRect();
+    return {left: left - canvas.left, top: top - canvas.top, width, height};
   }
 
   /// Width over height of each view of a pane.
