@@ -12,6 +12,7 @@
 #include "messages.h"
 #include "onmesh/atlas/chart_mask.h"
 #include "onmesh/base/text.h"
+#include "onmesh/image/channels.h"
 #include "onmesh/image/image_io.h"
 #include "onmesh/image/lookup.h"
 #include "onmesh/mesh_io/write_gltf.h"
@@ -209,6 +210,41 @@ std::vector<std::vector<unsigned char>> counted_texels(const TriangleMesh& mesh,
   return counted;
 }
 
+/// Images whose values can be compared across seams.
+struct SeamImages {
+  std::vector<Image> kept;             ///< what pointers refer to, if the images themselves do not
+  std::vector<const Image*> pointers;  ///< per image; empty if they have different channels
+};
+
+/// Where only some have alpha, the others' channels are compared.
+SeamImages seam_images(const std::vector<Image>& images) {
+  SeamImages seams;
+  const auto have_as_many = [](const std::vector<Image>& some) {
+    return std::all_of(some.begin(), some.end(),
+                       [&](const Image& image) { return image.channels == some[0].channels; });
+  };
+  if (!have_as_many(images)) {
+    for (const Image& image : images)
+      seams.kept.push_back(take_channels(image, image.range_channels()));
+    if (!have_as_many(seams.kept)) return {};
+  }
+  for (const Image& image : seams.kept.empty() ? images : seams.kept)
+    seams.pointers.push_back(&image);
+  return seams;
+}
+
+void compare_seams(const TriangleMesh& mesh, const TexelMap& map, const std::vector<bool>& counted,
+                   Comparison& result) {
+  const SeamImages a = seam_images(result.a), b = seam_images(result.b);
+  if (a.pointers.empty() || b.pointers.empty()) {
+    warn("the textures have different channels, so their seams are not compared");
+    return;
+  }
+  result.seams_a = seam_error(mesh, map, a.pointers);
+  result.seams_b = seam_error(mesh, map, b.pointers);
+  result.residual = seam_residual(mesh, map, a.pointers, b.pointers, counted);
+}
+
 /// On the texels that the mesh's charts cover, and at its seams.
 void compare_on_mesh(const Arguments& arguments, const InputMesh& input, TextureSet set,
                      Comparison& result) {
@@ -219,19 +255,13 @@ void compare_on_mesh(const Arguments& arguments, const InputMesh& input, Texture
     const TexelMap map =
         make_texel_map(mesh, texel_tiles(textures.tiles), std::move(set.tile_of_face));
     if (map.claims.empty()) throw InputError("no texel is covered, so there is nothing to compare");
-    std::vector<const Image*> a, b;
     const auto counted = counted_texels(mesh, map, result);
-    for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+    for (std::size_t i = 0; i < result.pairs.size(); ++i)
       compare_pair(arguments, counted[i], result);
-      a.push_back(&result.a[i]);
-      b.push_back(&result.b[i]);
-    }
-    result.seams_a = seam_error(mesh, map, a);
-    result.seams_b = seam_error(mesh, map, b);
     std::vector<bool> all_counted;
     for (const auto& of_tile : counted)
       for (const unsigned char c : of_tile) all_counted.push_back(c != 0);
-    result.residual = seam_residual(mesh, map, a, b, all_counted);
+    compare_seams(mesh, map, all_counted, result);
     return 0;
   });
 }
@@ -242,8 +272,6 @@ void add_images(Image a, Image b, Comparison& result) {
   require_like(b, pair.b.string(), a, pair.a.string());
   result.a.push_back(std::move(a));
   result.b.push_back(std::move(b));
-  if (result.a.back().channels != result.a[0].channels)
-    throw InputError(pair.a.string() + ": has other channels than " + result.pairs[0].a.string());
   check_interrupted();
 }
 

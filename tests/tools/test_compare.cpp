@@ -109,6 +109,34 @@ TEST_CASE("compare of glTF files is that of their images on their mesh", "[tools
   check_refused(space, "compare a.glb b.glb --slot normal", 2, "no texture");
 }
 
+TEST_CASE("compare takes textures of which some have alpha", "[tools][compare][gltf]") {
+  const Workspace space;
+  const auto png = [&](Pattern pattern, int channels, const std::string& name) {
+    write_image(space / name, make_texture(16, 16, pattern, 0.3, 1, channels), {false, 8});
+    return read_file(space / name);
+  };
+  const auto write_glb = [&](const std::string& name, const std::vector<std::string>& images) {
+    GltfBuilder gltf;
+    for (const std::string& image : images)
+      gltf.add_node({{"mesh", gltf.add_square(gltf.add_material(image, "m"))}});
+    space.file(name, gltf.glb());
+  };
+  const std::string opaque = png(Pattern::checker, 3, "a.png"),
+                    clear = png(Pattern::checker, 4, "b.png"),
+                    grey = png(Pattern::checker, 1, "c.png");
+  write_glb("a.glb", {opaque, clear});
+  const auto json = space.must("compare a.glb a.glb --json").json();
+  CHECK(json["equal"] == true);
+  CHECK(json["files"].size() == 2);
+  CHECK(json["seams_a"]["rms"] == json["seams_b"]["rms"]);
+  // Grey and colours cannot be compared across a seam.
+  write_glb("g.glb", {opaque, grey});
+  const Run run = space.run("compare g.glb g.glb --json");
+  CHECK(run.code == 0);
+  CHECK(run.json()["seams_a"].is_null());
+  CHECK_THAT(run.err, Contains("different channels"));
+}
+
 TEST_CASE("compare measures light, alpha apart, where a mask shows it", "[tools][compare]") {
   const Workspace space;
   space.must("make-mesh plane -o m.obj -t unused.png --size 8");

@@ -8,6 +8,10 @@ const kReplaced = new Set([
   '--zoom',
   '--target',
   '--extent',
+  // Pictures have none of these.
+  '--distances',
+  '--samples',
+  '--nodes',
 ]);
 
 const digits = (x) => String(Number(x.toPrecision(6)));

@@ -7,6 +7,7 @@ async function dress(material, app, tile, colour, light) {
   const {state, images, scene, cursor} = app;
   const map = scene.maps[state.map];
   const shown = {colouring: kColourings[colour] ?? kColourings.grey, light};
+  shown.most_taps = app.stage.most_taps;
   shown.linear_filter = state.filtering === 'linear';
   shown.checker_texels = 2 ** state.checker_power;
   if (tile === null) {

@@ -93,8 +93,7 @@ export function show_legends(legends) {
     const ends = element('div', undefined, 'ends');
     const middle = (low + high) / 2;
     ends.append(...[low, middle, high].map((x) => element('span', brief(x))));
-    const heading = unit ? `${title}, ${unit}` : title;
-    legend.append(element('div', heading, 'title'), bar, ends);
+    legend.append(element('div', title, 'title'), element('div', unit, 'unit'), bar, ends);
     return legend;
   });
   by_id('legends').replaceChildren(...made);

@@ -15,6 +15,13 @@ function graphics_context(canvas) {
   return context;
 }
 
+// Look-ups a pixel and direction where it covers many texels: fewer if the processor draws.
+function most_taps(context) {
+  const names = context.getExtension('WEBGL_debug_renderer_info');
+  const renderer = context.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : context.RENDERER);
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(renderer) ? 2 : 4;
+}
+
 /// Parts of a pane side by side, as shares of its width, each with the state that it shows.
 export function views_of(state, flicker_after) {
   const whole = (show) => [{from: 0, to: 1, show}];
@@ -40,6 +47,7 @@ export class Stage {
     this.canvas = by_id('canvas');
     ColorManagement.enabled = false; // shaders write what is to be seen
     const context = graphics_context(this.canvas);
+    this.most_taps = most_taps(context);
     this.renderer = new WebGLRenderer({canvas: this.canvas, context});
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.setScissorTest(true);

@@ -32,7 +32,7 @@ precision highp float;
 precision highp int;
 uniform sampler2D before_map, after_map, difference_map, ramp;
 uniform bool has_before, has_after, has_difference;
-uniform int colouring, state, channels;
+uniform int colouring, state, channels, most_taps;
 uniform float split;
 uniform bool linear_filter, light, encode;
 uniform float exposure, difference_end, checker_texels;
@@ -49,19 +49,30 @@ const vec3 magenta = vec3(1.0, 0.0, 1.0);
 bool finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
 
 int wrapped(int i, int n, int mode) {
+  if (i >= 0 && i < n) return i;
   if (mode == 0) return clamp(i, 0, n - 1);
   if (mode == 1) return ((i % n) + n) % n;
   int k = ((i % (2 * n)) + 2 * n) % (2 * n);
   return k < n ? k : 2 * n - 1 - k;
 }
 
-vec4 texel(sampler2D map, ivec2 at, ivec2 size) {
-  return texelFetch(map, ivec2(wrapped(at.x, size.x, wrap.x), wrapped(at.y, size.y, wrap.y)), 0);
+// Maps are named by number, so that what follows is compiled once and not once a map: before, after
+// and the difference.
+vec4 texel(int map, ivec2 at, ivec2 size) {
+  ivec2 p = ivec2(wrapped(at.x, size.x, wrap.x), wrapped(at.y, size.y, wrap.y));
+  if (map == 0) return texelFetch(before_map, p, 0);
+  if (map == 1) return texelFetch(after_map, p, 0);
+  return texelFetch(difference_map, p, 0);
+}
+
+ivec2 size_of(int map) {
+  if (map == 0) return textureSize(before_map, 0);
+  if (map == 1) return textureSize(after_map, 0);
+  return textureSize(difference_map, 0);
 }
 
 // A texel of weight 0 does not count, so that what is not finite spreads no further than weights do.
-vec4 look_up(sampler2D map, vec2 uv, bool smoothly) {
-  ivec2 size = textureSize(map, 0);
+vec4 look_up(int map, ivec2 size, vec2 uv, bool smoothly) {
   vec2 p = vec2(uv.x, 1.0 - uv.y) * vec2(size);
   if (!smoothly) return texel(map, ivec2(floor(p)), size);
   p -= 0.5;
@@ -95,17 +106,18 @@ vec3 heat(vec4 value) {
 
 // Mean over the pixel where it is larger than texels: unlike mip maps it does not reach into
 // neighbouring charts.
-vec3 mean_colour(sampler2D map, bool is_heat, bool smoothly) {
+vec3 mean_colour(int map, bool smoothly) {
   vec2 dx = dFdx(at_uv), dy = dFdy(at_uv);
-  vec2 size = vec2(textureSize(map, 0));
-  float footprint = max(length(dx * size), length(dy * size));
-  int taps = int(clamp(ceil(footprint), 1.0, 4.0));
+  ivec2 size = size_of(map);
+  float footprint = max(length(dx * vec2(size)), length(dy * vec2(size)));
+  int taps = min(int(ceil(clamp(footprint - 0.25, 1.0, 4.0))), most_taps);
+  bool blend = smoothly && taps * 2 <= most_taps;
   vec3 sum = vec3(0.0);
   for (int j = 0; j < taps; ++j) {
     for (int i = 0; i < taps; ++i) {
       vec2 share = (vec2(i, j) + 0.5) / float(taps) - 0.5;
-      vec4 value = look_up(map, at_uv + share.x * dx + share.y * dy, smoothly && taps < 3);
-      sum += is_heat ? heat(value) : display(value);
+      vec4 value = look_up(map, size, at_uv + share.x * dx + share.y * dy, blend);
+      sum += map == 2 ? heat(value) : display(value);
     }
   }
   return sum / float(taps * taps);
@@ -122,13 +134,10 @@ vec3 checker() {
 
 void main() {
   bool after = state == 1 || (state == 2 && gl_FragCoord.x >= split);
+  bool textured = colouring == 1 && (after ? has_after : has_before);
   vec3 colour = grey;
-  if (colouring == 1 && after && has_after)
-    colour = mean_colour(after_map, false, linear_filter);
-  else if (colouring == 1 && !after && has_before)
-    colour = mean_colour(before_map, false, linear_filter);
-  else if (colouring == 2 && has_difference)
-    colour = mean_colour(difference_map, true, false);
+  if (textured || (colouring == 2 && has_difference))
+    colour = mean_colour(colouring == 2 ? 2 : after ? 1 : 0, linear_filter && textured);
   else if (colouring == 3)
     colour = checker();
   if (light) colour *= lit(normal_in_view, position_in_view);
@@ -148,6 +157,7 @@ export function surface_material(ramp, wrap) {
     colouring: 0,
     state: 0,
     channels: 3,
+    most_taps: 4,
     split: 0,
     linear_filter: true,
     light: true,
