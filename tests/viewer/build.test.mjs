@@ -25,8 +25,9 @@ test('the page has one place for data, one policy, and the licence of three.js',
 test('the program writes the committed page, with data in its place', {skip: no_pages()}, () => {
   const written = readFileSync(make_page('whole.html', 'cube.obj', '-t', 'cube.png'), 'utf8');
   const [start, end] = page.split('<!-- onmesh data -->');
-  assert.ok(written.startsWith(start), 'it starts differently: is the program older than the page?');
-  assert.ok(written.endsWith(end), 'it ends differently: is the program older than the page?');
+  const older = 'is the program older than the page?';
+  assert.ok(written.startsWith(start), `it starts differently: ${older}`);
+  assert.ok(written.endsWith(end), `it ends differently: ${older}`);
   const data = written.slice(start.length, written.length - end.length);
   assert.match(data, /^\s*<script type="application\/json" id="onmesh-scene">/);
 });

@@ -35,7 +35,7 @@ async function agrees(page, triangles, {width, height}, step) {
   return covered;
 }
 
-test('texels of a page of the program lie where its mesh puts them', {skip: no_pages()}, async () => {
+test('texels of the program\'s page lie where its mesh puts them', {skip: no_pages()}, async () => {
   const path = make_page('cursor.html', 'cube.obj', '-t', 'cube.png', '--after', 'noisy.png');
   const page = await open_file(browser, path);
   assert.deepStrictEqual(page.errors, []);
@@ -164,7 +164,7 @@ test('pointing in one pane marks the place in the other', async () => {
   );
   await marked('model');
   const again = (await state(page)).place;
-  assert.deepStrictEqual([again.tile, again.column, again.row], [place.tile, place.column, place.row]);
+  for (const name of ['tile', 'column', 'row']) assert.strictEqual(again[name], place[name]);
   close(await marker('model'), at, 4);
   await page.waitForFunction(
     (text) => document.getElementById('readout').innerText.includes(text),

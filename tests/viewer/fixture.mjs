@@ -209,7 +209,14 @@ export function full_scene(blocks, size = 256) {
   ];
   Object.assign(scene, overlays(blocks, mesh), {fields: distances(blocks)});
   scene.numbers = [
-    {title: 'Run', rows: [['sigma spatial', '4 texels'], ['sigma range', '0.1'], ['time', '1.2 s']]},
+    {
+      title: 'Run',
+      rows: [
+        ['sigma spatial', '4 texels'],
+        ['sigma range', '0.1'],
+        ['time', '1.2 s'],
+      ],
+    },
   ];
   return scene;
 }

@@ -84,6 +84,8 @@ export function read_ply_vertices(name) {
   const count = Number(/element vertex (\d+)/.exec(header)[1]);
   const properties = header.split('element face')[0].match(/property double/g).length;
   return Array.from({length: count}, (_, i) =>
-    Array.from({length: properties}, (_, k) => bytes.readDoubleLE(start + 8 * (i * properties + k))),
+    Array.from({length: properties}, (_, k) =>
+      bytes.readDoubleLE(start + 8 * (i * properties + k)),
+    ),
   );
 }

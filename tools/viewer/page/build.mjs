@@ -10,6 +10,7 @@ import {build, transform} from 'esbuild';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const read = (...path) => readFileSync(join(here, ...path), 'utf8');
+const read_bytes = (folder, name) => readFileSync(join(folder, name));
 const hash = (text) => `'sha256-${createHash('sha256').update(text).digest('base64')}'`;
 
 function fill(template, parts) {
@@ -61,7 +62,8 @@ async function check() {
   try {
     await build_into(folder);
     for (const name of ['page.html', 'LICENSE.three']) {
-      if (readFileSync(join(folder, name)).equals(readFileSync(join(here, 'built', name)))) continue;
+      const [made, committed] = [folder, join(here, 'built')].map((at) => read_bytes(at, name));
+      if (made.equals(committed)) continue;
       console.error(`built/${name} is not what src/ builds: run node build.mjs and commit it`);
       process.exitCode = 1;
     }

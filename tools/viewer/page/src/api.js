@@ -39,6 +39,7 @@ export function make_api(app) {
       return app.stage.pixels_of(pane, x, y, width, height);
     },
     finished: () => {
+      app.draw(); // a frame that was shown already is gone from the buffer that is read
       app.stage.finish();
       return performance.now();
     },

@@ -11,7 +11,8 @@ import {Stage} from './stage.js';
 const by_id = (id) => document.getElementById(id);
 
 function report(error) {
-  const sentence = error instanceof PageError ? error.message : `Something failed: ${error.message}`;
+  const sentence =
+    error instanceof PageError ? error.message : `Something failed: ${error.message}`;
   by_id('problem').textContent = `${sentence}.`;
   by_id('problem').hidden = false;
 }

@@ -19,7 +19,7 @@ import {set_uniforms, surface_material} from './surface.js';
 
 const kSeam = {colour: [1, 0.45, 0.1], border: [0.05, 0.05, 0.08], width: 4};
 // Chords of a curved surface run below it.
-const kNode = {colour: [0.25, 0.75, 1], border: [0.03, 0.15, 0.3], width: 2.5, lift: 1.5e-3};
+const kNode = {colour: [0.1, 0.45, 0.75], border: [0.1, 0.45, 0.75], width: 1, lift: 1.5e-3};
 
 const point_vertex_shader = `
 uniform float size;

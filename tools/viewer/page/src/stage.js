@@ -1,4 +1,5 @@
-// The canvas and the two panes over it: what is drawn where, markers, and what a place in a pane is.
+// The canvas and the two panes over it: what is drawn where, markers, and which place of a view
+// a place in a pane is.
 import {Color, ColorManagement, LinearSRGBColorSpace, WebGLRenderer} from 'three';
 import {PageError} from './page_error.js';
 import {kStates} from './surface.js';

@@ -1,5 +1,5 @@
-// The material of the model and of the UV layout's picture: one shader that shows the texture before
-// or after, their difference, a checker of texels, or grey.
+// The material of the model and of the UV layout's picture: one shader that shows the texture
+// before or after, their difference, a checker of texels, or grey.
 import {DoubleSide, GLSL3, ShaderMaterial} from 'three';
 
 export const kColourings = {grey: 0, texture: 1, difference: 2, checker: 3};

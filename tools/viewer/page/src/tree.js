@@ -1,4 +1,5 @@
-// Triangles in a tree of boxes: which one a ray hits, which one holds a point, which one is nearest.
+// Triangles in a tree of boxes: which one a ray hits, which one holds a point, and which one is
+// nearest.
 // Triangles are sorted along a Morton curve; eight neighbours share a box, eight boxes the next.
 
 const kFan = 8;
