@@ -70,11 +70,22 @@ std::string length_text(double length, double texel_size) {
   return format_number(length) + " mesh units, " + format_number(length / texel_size) + " texels";
 }
 
-ReviewTable table_of_run(const FilterReport& report, double seconds) {
+/// Every option that was given, as it was.
+std::string options_text(const Arguments& arguments) {
+  std::string text;
+  for (const std::string& word : arguments.as_given()) {
+    if (!text.empty()) text += ' ';
+    text += word;
+  }
+  return text;
+}
+
+ReviewTable table_of_run(const Arguments& arguments, const FilterReport& report, double seconds) {
   ReviewTable table{"Run", {}};
   const auto add = [&](const char* name, std::string value) {
     table.rows.emplace_back(name, std::move(value));
   };
+  add("options", options_text(arguments));
   add("sigma spatial", length_text(report.sigma_spatial, report.texel_size));
   if (report.range_width > 0) add("range width", format_number(report.range_width));
   if (report.noise > 0) add("noise", format_number(report.noise));
@@ -126,7 +137,7 @@ void write_filter_page(const std::string& path, const Arguments& arguments,
   if (!inputs.maps.empty()) {
     read_back(inputs, to, results);
     add_maps(inputs, std::move(results), review);
-    review.tables = {table_of_run(report, seconds), table_of_stages(report)};
+    review.tables = {table_of_run(arguments, report, seconds), table_of_stages(report)};
   }
   write_review(path, std::move(review));
 }
