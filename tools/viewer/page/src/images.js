@@ -19,9 +19,9 @@ const to_number = {
   f32: (value) => value,
 };
 
-/// Channels that are no alpha.
-export function colour_channels(channels) {
-  return channels === 2 || channels === 4 ? channels - 1 : channels;
+// Where an image does not say which channel is alpha (-1 = none), the last of two or four is.
+function alpha_channel({alpha, channels}) {
+  return alpha ?? (channels === 2 || channels === 4 ? channels - 1 : -1);
 }
 
 /// An image with its decoded values; row 0 is its top.
@@ -32,6 +32,7 @@ export class DecodedImage {
     Object.assign(decoded, {width, height, channels, type});
     decoded.full_width = image.full_width ?? width;
     decoded.full_height = image.full_height ?? height;
+    decoded.alpha = alpha_channel(image);
     decoded.to_number = to_number[type];
     if (!decoded.to_number) throw new PageError(`Images of type ${type} are not read`);
     decoded.codes = await read_block({...image, count: image.count ?? width * height * channels});
@@ -90,8 +91,8 @@ export class Difference {
     this.squares = 0;
     this.values = 0;
     this.max = 0;
-    const {channels} = before;
-    const colours = colour_channels(channels);
+    const {channels, alpha} = before;
+    const colours = alpha < 0 || channels === 1 ? channels : channels - 1;
     const [a, b] = [before.to_number, after.to_number];
     for (let i = 0, at = 0; i < this.texels.length; ++i, at += channels) {
       let sum = 0;
@@ -100,7 +101,7 @@ export class Difference {
         const vb = b(after.codes[at + c]);
         if (va === vb || (Number.isNaN(va) && Number.isNaN(vb))) continue;
         const d = Math.abs(va - vb);
-        if (c < colours) sum += d * d;
+        if (c !== alpha || channels === 1) sum += d * d;
         if (!Number.isFinite(d)) continue;
         this.squares += d * d;
         this.max = Math.max(this.max, d);
