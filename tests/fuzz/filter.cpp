@@ -55,6 +55,11 @@ TexelRules::TexelRules(const FilterSetup& setup, const FilterOptions& options,
       highest[c] = std::max(highest[c], value);
     }
   }
+  // What sticks out is scaled towards 0, all channels of a colour alike.
+  for (std::size_t c = 0; c < filtered.size() && options.despike > 0; ++c) {
+    lowest[c] = std::min(lowest[c], 0.F);
+    highest[c] = std::max(highest[c], 0.F);
+  }
 }
 
 /// A covered texel stays in the range of what is summed over, or as it is if alpha shows nothing of
@@ -144,6 +149,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   SurfaceTextures textures = fuzz::make_textures(input, images, mesh, options);
   std::vector<Image> masks;
   fuzz::choose_values(input, options, textures, masks);
+  std::vector<Image> guide_images;
+  fuzz::choose_guides(input, textures, options, guide_images);
   options.threads = 1;
   const Outcome one = try_filter(mesh, textures, options);
   if (one.images)

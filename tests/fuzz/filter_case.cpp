@@ -162,4 +162,43 @@ void choose_values(Input& input, FilterOptions& options, SurfaceTextures& textur
   }
 }
 
+void choose_guides(Input& input, const SurfaceTextures& textures, FilterOptions& options,
+                   std::vector<Image>& images) {
+  const std::uint8_t choices = input.byte();
+  const auto bit = [&](int i) { return (choices >> i & 1) != 0; };
+  if (bit(2)) options.despike = bit(3) ? 1 : 4;
+  options.despike_to_limit = bit(4);
+  options.keep_mean = bit(5);
+  if (bit(6)) options.iterations = 2;
+  options.guides_from_result = bit(7);
+  using Kind = Guide::Kind;
+  static constexpr Kind kKinds[] = {Kind::own, Kind::surface_normal, Kind::surface_position,
+                                    Kind::images};
+  static constexpr RangeWidth::Unit kUnits[] = {RangeWidth::Unit::feature, RangeWidth::Unit::noise};
+  static constexpr Guide::Meaning kMeanings[] = {Guide::Meaning::values, Guide::Meaning::normal_gl,
+                                                 Guide::Meaning::object_normal};
+  const std::size_t count = options.kind == FilterKind::bilateral ? choices & 3U : 0;
+  images.reserve(4 * count);  // guides refer to them
+  for (std::size_t k = 0; k < count; ++k) {
+    Guide& guide = options.guides.emplace_back();
+    guide.kind = input.pick(kKinds);
+    guide.width = RangeWidth{0.01 + double(input.below(8)), input.pick(kUnits)};
+    guide.length = length(input, 0.25);
+    if (input.flag()) (input.flag() ? guide.blur : guide.median) = length(input, 0.25);
+    if (guide.kind != Kind::images) continue;
+    guide.name = "guide";
+    guide.meaning = input.pick(kMeanings);
+    guide.textures = textures;
+    const int channels = guide.meaning == Guide::Meaning::values ? 1 + int(input.below(4)) : 3;
+    for (TextureTile& tile : guide.textures.tiles) {
+      images.push_back(make_image(1 + int(input.below(24)), 1 + int(input.below(24)), channels));
+      fill_with_pattern(input, images.back());
+      plant_odd_values(input, images.back());
+      tile.image = &images.back();
+      tile.mask = tile.sample_mask = nullptr;
+      tile.space = nullptr;
+    }
+  }
+}
+
 }  // namespace onmesh::fuzz

@@ -36,4 +36,9 @@ FilterOptions make_options(Input& input, std::size_t faces);
 void choose_values(Input& input, FilterOptions& options, SurfaceTextures& textures,
                    std::vector<Image>& masks);
 
+/// Often nothing; else up to three guides of any kind, despiking, the mean kept, two passes.
+/// \param images get what guides refer to
+void choose_guides(Input& input, const SurfaceTextures& textures, FilterOptions& options,
+                   std::vector<Image>& images);
+
 }  // namespace onmesh::fuzz

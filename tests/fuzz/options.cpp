@@ -74,7 +74,7 @@ void check_length(const std::string& text) {
 void check_values(const std::string& text) {
   boost::program_options::variables_map map;
   map.insert({"value", boost::program_options::variable_value(boost::any(text), false)});
-  const tools::Arguments arguments("fuzz", std::move(map));
+  const tools::Arguments arguments("fuzz", std::move(map), {});
   fuzz::succeeds([&] { arguments.number("value"); });
   fuzz::succeeds([&] { fuzz::require(arguments.bytes("value") >= 1, "no bytes were read"); });
   fuzz::succeeds([&] {

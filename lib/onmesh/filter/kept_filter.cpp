@@ -24,21 +24,21 @@ auto surface_options(const FilterOptions& o) {
                     o.seed, o.wrap, o.overlap, o.faces, o.stop_at_materials);
 }
 
-/// Where texels are, and on which faces.
-struct Layout {
-  std::vector<std::tuple<int, int, int, int>> tiles;  ///< width, height, column, row
-  std::vector<Index> tile_of_face;
-
-  explicit Layout(const SurfaceTextures& textures) : tile_of_face(textures.tile_of_face) {
-    for (const TextureTile& tile : textures.tiles)
-      tiles.emplace_back(tile.image->width, tile.image->height, tile.column, tile.row);
-  }
-  bool operator==(const Layout&) const = default;
-};
-
 }  // namespace
 
 struct KeptFilter::Kept {
+  /// Where texels are, and on which faces.
+  struct Layout {
+    std::vector<std::tuple<int, int, int, int>> tiles;  ///< width, height, column, row
+    std::vector<Index> tile_of_face;
+
+    explicit Layout(const SurfaceTextures& textures) : tile_of_face(textures.tile_of_face) {
+      for (const TextureTile& tile : textures.tiles)
+        tiles.emplace_back(tile.image->width, tile.image->height, tile.column, tile.row);
+    }
+    bool operator==(const Layout&) const = default;
+  };
+
   const TriangleMesh& mesh;
   FilterOptions options;
   Layout layout;
@@ -49,7 +49,7 @@ KeptFilter::KeptFilter(const TriangleMesh& mesh, const SurfaceTextures& textures
                        const FilterOptions& options, const Progress& progress) {
   const FilterOptions settled = settle_guides(textures, options);
   kept_ = on_threads(options.threads, [&] {
-    return std::make_unique<Kept>(Kept{mesh, options, Layout(textures),
+    return std::make_unique<Kept>(Kept{mesh, options, Kept::Layout(textures),
                                        make_kept_surface(mesh, textures, settled, progress)});
   });
   kept_->options.guides.clear();  // they refer to images
@@ -68,7 +68,7 @@ std::vector<Image> KeptFilter::run(const SurfaceTextures& textures, const Filter
   check_options(options, kept_->mesh.faces.size());
   if (!fits(options))
     throw OptionError("options", "a filter that is kept has others of the surface");
-  if (!(Layout(textures) == kept_->layout))
+  if (!(Kept::Layout(textures) == kept_->layout))
     throw InputError("the textures have other sizes or faces than those the filter was kept for");
   FilterReport unused;
   FilterReport& out = report != nullptr ? *report : unused;

@@ -2,6 +2,7 @@
 
 #include <tbb/info.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -45,6 +46,29 @@ double memory_of_masks(const SurfaceTextures& textures) {
          sizeof(float) * texels * (has_sample_mask ? 2 : 0);
 }
 
+/// What features take meanwhile, of the guide that takes most: another guide's texels with a map
+/// and places of their own, neighbours of texels, a copy of what is smoothed.
+double memory_of_guides(const SurfaceTextures& textures, const FilterOptions& options) {
+  constexpr double kBytesPerPlace = 12, kBytesPerClaimedTexel = sizeof(TexelClaim) + 9.0;
+  const double texels = double(textures.values().size());
+  double most = 0;
+  bool has_median = options.despike > 0;
+  for (const Guide& guide : options.guides) {
+    has_median |= guide.median.has_value();
+    double channels = textures.values().channels(), bytes = 0;
+    if (!guide.textures.tiles.empty()) {
+      const double own = double(guide.textures.values().size());
+      channels = guide.textures.values().channels();
+      const bool is_normal = guide.meaning != Guide::Meaning::values;
+      bytes = own * (kBytesPerClaimedTexel + kBytesPerPlace +
+                     sizeof(float) * (2 * channels + (is_normal ? 3 : 0)));
+    }
+    if (guide.is_smoothed()) bytes += sizeof(float) * channels * texels;
+    most = std::max(most, bytes + kBytesPerPlace * texels);
+  }
+  return most + (has_median ? (kBytesPerPlace + 1) * texels : 0);
+}
+
 void require(std::uint64_t bytes, std::uint64_t limit, const std::string& what) {
   if (bytes <= limit) return;
   throw InputError("would take about " + memory_text(bytes) + " of memory" + what + ", and " +
@@ -78,8 +102,9 @@ std::uint64_t expected_memory(const SurfaceTextures& textures, const FilterPlan&
       (options.samples == SampleKind::poisson ? kBytesPerPoissonSample : kBytesPerSample) +
       (weighed ? kBytesPerSample : 0);
   return whole_number(double(resident_memory_bytes()) + values + masks +
-                      kBytesPerTexel * double(plan.texels) + per_sample * double(plan.samples) +
-                      kBytesPerNode * double(plan.nodes) + kBytesPerThread * thread_count(options));
+                      memory_of_guides(textures, options) + kBytesPerTexel * double(plan.texels) +
+                      per_sample * double(plan.samples) + kBytesPerNode * double(plan.nodes) +
+                      kBytesPerThread * thread_count(options));
 }
 
 void require_memory_for_texels(const TriangleMesh& mesh, const SurfaceTextures& textures,
