@@ -16,9 +16,10 @@ std::vector<Image> filter(const TriangleMesh& mesh, const SurfaceTextures& textu
   const FilterOptions settled = settle_guides(textures, options);
   return on_threads(options.threads, [&] {
     std::vector<Image> images;
-    KeptSurface surface = make_kept_surface(mesh, textures, settled, progress, &images);
-    out = std::move(surface.report);
-    return run_on_surface(mesh, textures, settled, surface, true, std::move(images), out, progress);
+    const auto surface = make_kept_surface(mesh, textures, settled, progress, &images);
+    out = std::move(surface->report);
+    return run_on_surface(mesh, textures, settled, *surface, true, std::move(images), out,
+                          progress);
   });
 }
 

@@ -42,7 +42,7 @@ struct KeptFilter::Kept {
   const TriangleMesh& mesh;
   FilterOptions options;
   Layout layout;
-  KeptSurface surface;
+  std::unique_ptr<KeptSurface> surface;
 };
 
 KeptFilter::KeptFilter(const TriangleMesh& mesh, const SurfaceTextures& textures,
@@ -72,13 +72,13 @@ std::vector<Image> KeptFilter::run(const SurfaceTextures& textures, const Filter
     throw InputError("the textures have other sizes or faces than those the filter was kept for");
   FilterReport unused;
   FilterReport& out = report != nullptr ? *report : unused;
-  out = kept_->surface.report;
+  out = kept_->surface->report;
   out.stages.clear();
   const FilterOptions settled = settle_guides(textures, options);
   std::vector<Image> images;
   for (const TextureTile& tile : textures.tiles) images.push_back(*tile.image);
   return on_threads(options.threads, [&] {
-    return run_on_surface(kept_->mesh, textures, settled, kept_->surface, false, std::move(images),
+    return run_on_surface(kept_->mesh, textures, settled, *kept_->surface, false, std::move(images),
                           out, progress);
   });
 }

@@ -54,29 +54,31 @@ NodeSurface make_nodes(const FilterSetup& setup, const SurfaceTextures& textures
 
 }  // namespace
 
-KeptSurface make_kept_surface(const TriangleMesh& mesh, const SurfaceTextures& textures,
-                              const FilterOptions& options, const Progress& progress,
-                              std::vector<Image>* images) {
-  KeptSurface kept;
-  FilterReport& report = kept.report;
+std::unique_ptr<KeptSurface> make_kept_surface(const TriangleMesh& mesh,
+                                               const SurfaceTextures& textures,
+                                               const FilterOptions& options,
+                                               const Progress& progress,
+                                               std::vector<Image>* images) {
+  auto kept = std::make_unique<KeptSurface>();
+  FilterReport& report = kept->report;
   Stages stages(report.stages, progress);
   stages.begin("texel map");
-  kept.setup = set_up_filter(mesh, textures, options);
-  const FilterSetup& setup = kept.setup;
+  kept->setup = set_up_filter(mesh, textures, options);
+  const FilterSetup& setup = kept->setup;
   require_memory(setup.mesh_plan);
   note_plan(setup.mesh_plan, report);
   stages.end();
   return with_face_numbers(setup.cleaning.kept, [&] {
     stages.begin("refine");
-    kept.nodes = make_nodes(setup, textures, report, images);
+    kept->nodes = make_nodes(setup, textures, report, images);
     stages.end();
     stages.begin("samples");
-    kept.samples = draw_samples(setup, kept.nodes, options, progress);
-    kept.nodes.overlay = {};
-    report.samples = kept.samples.sources.samples.size();
-    report.texels = kept.samples.targets().samples.size();
-    kept.backend = make_backend(options.distance, setup.mesh, kept.nodes.nodes);
-    note_backend(*kept.backend, options.distance, setup.cleaning, report);
+    kept->samples = draw_samples(setup, kept->nodes, options, progress);
+    kept->nodes.overlay = {};
+    report.samples = kept->samples.sources.samples.size();
+    report.texels = kept->samples.targets().samples.size();
+    kept->backend = make_backend(options.distance, setup.mesh, kept->nodes.nodes);
+    note_backend(*kept->backend, options.distance, setup.cleaning, report);
     stages.end();
     return std::move(kept);
   });

@@ -15,8 +15,12 @@
 namespace onmesh {
 
 /// Nodes, samples and where distances come from: the same for all values on the surface, and all
-/// ways to compare them.
+/// ways to compare them. The back end refers to the others, so that it stays where it is.
 struct KeptSurface {
+  KeptSurface() = default;
+  KeptSurface(const KeptSurface&) = delete;
+  KeptSurface& operator=(const KeptSurface&) = delete;
+
   FilterSetup setup;
   NodeSurface nodes;
   FilterSamples samples;  ///< weighed by area alone
@@ -26,8 +30,10 @@ struct KeptSurface {
 
 /// \param images receive copies of the textures, made meanwhile, unless null
 /// \throw as filter(), but for what is wrong with values
-KeptSurface make_kept_surface(const TriangleMesh& mesh, const SurfaceTextures& textures,
-                              const FilterOptions& options, const Progress& progress,
-                              std::vector<Image>* images = nullptr);
+std::unique_ptr<KeptSurface> make_kept_surface(const TriangleMesh& mesh,
+                                               const SurfaceTextures& textures,
+                                               const FilterOptions& options,
+                                               const Progress& progress,
+                                               std::vector<Image>* images = nullptr);
 
 }  // namespace onmesh
