@@ -33,13 +33,14 @@ class GutterFill {
  public:
   GutterFill(const TriangleMesh& mesh, const TexelMap& map, const TexelValues& values,
              double bridge);
-  void fill(Index texel, const NearestEdge& nearest) const;
+  /// \return false if there is nothing to fill it from
+  bool fill(Index texel, const NearestEdge& nearest) const;
 
  private:
   Place look_at(const NearestEdge& nearest) const;
   bool continue_surface(const Place& place, float* values) const;
   void limit(const Place& place, const LaidFace& across, float* values) const;
-  void copy_nearest_claim(Index face, const Vec2& pixel, float* values) const;
+  bool copy_nearest_claim(Index face, const Vec2& pixel, float* values) const;
 
   const TexelMap& map_;
   const TexelValues values_;
@@ -149,14 +150,16 @@ void GutterFill::limit(const Place& place, const LaidFace& across, float* values
 
 /// The claim nearest to the pixel among those of the first face, going outward from this one over
 /// the chart, that has any.
-void GutterFill::copy_nearest_claim(Index face, const Vec2& pixel, float* values) const {
+/// \return false if no texel of the chart lies in the image (Wrap::clamp)
+bool GutterFill::copy_nearest_claim(Index face, const Vec2& pixel, float* values) const {
   const TexelTile tile = map_.tile_of(face);  // of the whole chart
   const auto copy = [&](const TexelClaim& claim) {
     const float* from = values_[tile.texel(claim)];
     for (const int c : lookup_.channels()) values[c] = from[c];
+    return true;
   };
   const auto& only = only_claim_[map_.chart_of_face[face]];
-  if (only.first == 0) return;  // no texel of the chart lies in the image (Wrap::clamp)
+  if (only.first == 0) return false;
   if (only.first == 1) return copy(only.second);
   std::vector<Index> open{face};
   std::unordered_set<Index> seen{face};
@@ -177,10 +180,10 @@ void GutterFill::copy_nearest_claim(Index face, const Vec2& pixel, float* values
       if (side != kNone && seen.insert(side / 3).second) open.push_back(side / 3);
     }
   }
-  copy(only.second);
+  return copy(only.second);
 }
 
-void GutterFill::fill(Index texel, const NearestEdge& nearest) const {
+bool GutterFill::fill(Index texel, const NearestEdge& nearest) const {
   const Place place = look_at(nearest);
   float* values = values_[texel];
   if (!continue_surface(place, values))
@@ -192,6 +195,7 @@ void GutterFill::fill(Index texel, const NearestEdge& nearest) const {
                       place.edge_point + kStep * (place.beyond - place.edge_point));
   if (across.laid.face != nearest.face && map_.chart_of_face[across.laid.face] != kNone)
     limit(place, across.laid, values);
+  return true;
 }
 
 }  // namespace
@@ -202,12 +206,13 @@ std::vector<Index> fill_gutter(const TriangleMesh& mesh, const TexelMap& map, in
   std::vector<Index> gutter = gutter_texels(map, rings, &grown);
   const std::vector<NearestEdge> nearest = nearest_edges(mesh, map, grown, gutter);
   const GutterFill fill(mesh, map, values, bridge);
+  std::vector<unsigned char> is_filled(gutter.size(), 0);
   parallel_over(gutter.size(), [&](std::size_t i) {
-    if (nearest[i].face != kNone) fill.fill(gutter[i], nearest[i]);
+    is_filled[i] = nearest[i].face != kNone && fill.fill(gutter[i], nearest[i]);
   });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < gutter.size(); ++i)
-    if (nearest[i].face != kNone) gutter[kept++] = gutter[i];
+    if (is_filled[i]) gutter[kept++] = gutter[i];
   gutter.resize(kept);
   return gutter;
 }
