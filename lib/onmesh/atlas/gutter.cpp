@@ -37,6 +37,7 @@ class GutterFill {
   bool fill(Index texel, const NearestEdge& nearest) const;
 
  private:
+  bool go_on(const NearestEdge& nearest, float* values) const;
   Place look_at(const NearestEdge& nearest) const;
   bool continue_surface(const Place& place, float* values) const;
   void limit(const Place& place, const LaidFace& across, float* values) const;
@@ -184,8 +185,20 @@ bool GutterFill::copy_nearest_claim(Index face, const Vec2& pixel, float* values
 }
 
 bool GutterFill::fill(Index texel, const NearestEdge& nearest) const {
+  float* const values = values_[texel];
+  const std::vector<float> before(values, values + values_.channels());
+  if (!go_on(nearest, values)) return false;
+  // A chart may have no value at all.
+  const std::vector<int>& channels = lookup_.channels();
+  const bool is_worse = std::any_of(channels.begin(), channels.end(), [&](int c) {
+    return std::isfinite(before[std::size_t(c)]) && !std::isfinite(values[c]);
+  });
+  if (is_worse) std::copy(before.begin(), before.end(), values);
+  return !is_worse;
+}
+
+bool GutterFill::go_on(const NearestEdge& nearest, float* values) const {
   const Place place = look_at(nearest);
-  float* values = values_[texel];
   if (!continue_surface(place, values))
     return copy_nearest_claim(nearest.face, place.centre, values);
   // The face right across the seam.
