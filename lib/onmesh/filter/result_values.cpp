@@ -150,8 +150,11 @@ void ResultValues::encode_some(const std::vector<Index>& texels, const std::vect
     const float factor = alpha_factor(t, tile);
     const bool was_divided = tile.premultiplied && codes_[t][codes_.alpha_channel()] > 0;
     const float own_factor = was_divided ? codes_[t][codes_.alpha_channel()] : 1;
-    const bool stays =
-        factor == own_factor && !read.empty() && is_as_read(t, &read[k * channels.size()]);
+    // What has no value, as nothing was there to fill it from, stays as well.
+    const bool is_known = std::all_of(channels.begin(), channels.end(),
+                                      [&](int c) { return std::isfinite(values_[t][c]); });
+    const bool stays = !is_known || (factor == own_factor && !read.empty() &&
+                                     is_as_read(t, &read[k * channels.size()]));
     for (const int c : channels) {
       const float code = *next++ * factor;
       values_[t][c] = stays ? codes_[t][c] : code;
