@@ -153,8 +153,13 @@ std::vector<Spike> find_spikes(const NearWork& work, const std::vector<Judge>& j
   };
   tbb::enumerable_thread_specific<Thread> threads;
   const std::size_t channels = working.channels().size();
+  const ConstTexelValues codes = working.textures().values();
+  const int alpha = codes.alpha_channel();
+  // What nobody sees stays.
+  const auto is_clear = [&](Index texel) { return alpha >= 0 && codes[texel][alpha] == 0; };
   visit_near_texels(
-      work, [](const Sample& s) { return kReach * std::sqrt(double(s.area)); },
+      work,
+      [&](const Sample& s) { return is_clear(s.texel) ? 0 : kReach * std::sqrt(double(s.area)); },
       [&](Index target, std::span<const Index> around) {
         Thread& own = threads.local();
         const Index texel = work.targets.samples[target].texel;
