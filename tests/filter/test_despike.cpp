@@ -124,6 +124,20 @@ TEST_CASE("data that sticks out becomes the median around, each channel by itsel
   CHECK(compared > result.pixels.size() * 9 / 10);
 }
 
+TEST_CASE("spikes that nobody sees stay", "[despike]") {
+  Image image = make_image(kSize, kSize, 4);
+  image.alpha_channel = 3;
+  for (Index t = 0; t < kSize * kSize; ++t) {
+    for (int c = 0; c < 3; ++c) image.texel(t)[c] = t % 37 == 0 ? 0.9F : 0.1F + float(t % 5) / 100;
+    image.texel(t)[3] = t % 37 == 0 ? 0.F : 1.F;
+  }
+  FilterOptions options = despiking(1.5);
+  options.filter_alpha = GENERATE(false, true);
+  const Image result = filter(make_plane(1, 1), image, options);
+  for (Index t = 0; t < kSize * kSize; t += 37)
+    for (int c = 0; c < 3; ++c) CHECK(result.texel(t)[c] == image.texel(t)[c]);
+}
+
 TEST_CASE("a hot texel is gone before anything is averaged", "[despike]") {
   Image image = make_image(kSize, kSize, 3);
   std::fill(image.pixels.begin(), image.pixels.end(), 0.5F);

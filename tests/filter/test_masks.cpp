@@ -1,10 +1,13 @@
 // Masks, strength and detail: how much of the result is taken, and which texels count.
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "onmesh/filter/filter.h"
+#include "onmesh/image/colour_space.h"
 #include "onmesh/procedural/shapes.h"
 #include "onmesh/procedural/texture.h"
 #include "support/closed_forms.h"
@@ -210,6 +213,40 @@ TEST_CASE("where alpha alone changes straight codes stay, those multiplied with 
       REQUIRE(b.texel(t)[c] == Approx(image.texel(t)[c] * b.texel(t)[3]).margin(1e-5));
     }
   }
+}
+
+TEST_CASE("a chart without any value stays as it is, and so does its gutter", "[masks]") {
+  // Two squares apart in the atlas and in space; the mask leaves one out.
+  TriangleMesh mesh = make_plane(1, 1);
+  for (const Vec3& p : std::vector<Vec3>(mesh.positions))
+    mesh.positions.push_back(p + Vec3(9, 0, 0));
+  for (Vec2& uv : mesh.uvs) uv = Vec2(0.05 + 0.4 * uv.x(), 0.05 + 0.9 * uv.y());
+  for (const Vec2& uv : std::vector<Vec2>(mesh.uvs)) mesh.uvs.push_back(uv + Vec2(0.5, 0));
+  for (const auto f : std::vector<std::array<Index, 3>>(mesh.faces))
+    mesh.faces.push_back({f[0] + 4, f[1] + 4, f[2] + 4});
+  for (const auto f : std::vector<std::array<Index, 3>>(mesh.face_uvs))
+    mesh.face_uvs.push_back({f[0] + 4, f[1] + 4, f[2] + 4});
+  mesh.face_materials.assign(mesh.faces.size(), kNone);
+  const Image image = make_texture(kSize, kSize, Pattern::checker, 0.3, 5, 3);
+  Image mask = make_image(kSize, kSize, 1);
+  for (Index t = 0; t < kSize * kSize; ++t) mask.pixels[t] = t % kSize < kSize / 2 ? 1.F : 0.F;
+  FilterOptions options = some_options();
+  options.gutter = 3;
+  if (GENERATE(false, true)) options.despike = 1.5;
+  SurfaceTextures textures = one_texture(image, options);
+  textures.tiles[0].sample_mask = &mask;
+  textures.tiles[0].space = find_colour_space("sRGB");
+  const std::vector<Image> result = filter(mesh, textures, options);
+  bool changed = false;
+  for (Index t = 0; t < kSize * kSize; ++t) {
+    for (int c = 0; c < 3; ++c) {
+      const float before = image.texel(t)[c], after = result[0].texel(t)[c];
+      CHECK(std::isfinite(after));
+      if (t % kSize >= kSize / 2) CHECK(before == after);
+      changed |= before != after;
+    }
+  }
+  CHECK(changed);
 }
 
 TEST_CASE("a surface whose texels are all left out is refused", "[masks]") {
