@@ -258,6 +258,7 @@ std::string LiveSession::save(const json& body) {
     if (std::filesystem::exists(path, none)) there.push_back(path.string());
     saved.push_back(path.string());
   }
+  textures.check_destination(arguments);
   const bool may_write =
       flag_of(body, "confirmed") && (there.empty() || flag_of(body, "overwrite"));
   if (!may_write) return text_of({{"asks", saved}, {"exists", there}});

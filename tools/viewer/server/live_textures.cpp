@@ -135,6 +135,10 @@ LiveResult LiveTextures::run(Arguments arguments, const Progress& progress) {
   });
 }
 
+void LiveTextures::check_destination(const Arguments& arguments) const {
+  const Destination to(arguments, arguments.text("output"), inputs_);
+}
+
 std::vector<std::string> LiveTextures::write(const Arguments& arguments,
                                              const std::vector<Image>& images) {
   Destination to(arguments, arguments.text("output"), inputs_);

@@ -41,6 +41,8 @@ class LiveTextures {
   LiveResult preview(Arguments arguments, const Progress& progress);
   /// Filter the textures, as the command does. The same errors.
   LiveResult run(Arguments arguments, const Progress& progress);
+  /// \throw UsageError, FileError, InputError if write() could not write there
+  void check_destination(const Arguments& arguments) const;
   /// Write what run() gave, as the command does.
   /// \param arguments with --output
   /// \return what is to be told

@@ -58,7 +58,7 @@ export class Live {
     if (!this.can_filter) return;
     say('The first preview is on its way');
     show_progress(null);
-    this.preview();
+    await this.preview();
     const {run} = await status();
     if (run?.state === 'running' || run?.state === 'waiting') this.follow(run.number);
     else if (run?.has_result) await this.take_run();
@@ -68,7 +68,7 @@ export class Live {
     say(`${error.message}.`, true);
   }
 
-  /// A control has been moved.
+  /// A control has been moved. \return as preview()
   change(name, value) {
     this.controls[name] = value;
     if (name === 'preset') {
@@ -81,7 +81,7 @@ export class Live {
       this.touched.add(name);
     }
     this.show();
-    this.preview();
+    return this.preview();
   }
 
   options() {

@@ -60,7 +60,7 @@ async function start() {
     set_up_gestures(app);
     await app.refresh();
     make_api(app);
-    if (scene.live) await app.live.start();
+    app.live?.start().catch((error) => app.live.fail(error));
   } catch (error) {
     report(error);
     hide_picture();
