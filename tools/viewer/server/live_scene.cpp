@@ -75,6 +75,8 @@ LiveScene::LiveScene(const std::vector<std::string>& words, const Arguments& arg
   review.created = {"onmesh", "view"};
   review.created.insert(review.created.end(), arguments.as_given().begin(),
                         arguments.as_given().end());
+  review.view_command = {"onmesh", "view"};
+  review.view_command.insert(review.view_command.end(), words.begin(), words.end());
   review.camera = camera;
   review.mesh = &mesh_;
   review.wrap = wrap_of(arguments);

@@ -18,6 +18,7 @@ const kPreview = 0; // among the scene's states after
 const kRun = 1;
 const kMostLayers = 12;
 const kPoll = 200; // ms
+const kGather = 15; // ms: moves of one frame are one
 
 const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
@@ -110,8 +111,7 @@ export class Live {
   }
 
   async keep_up() {
-    // Moves of one frame are one.
-    await new Promise((resolve) => requestAnimationFrame(resolve));
+    await pause(kGather);
     while (this.wanted) {
       this.wanted = false;
       const began = performance.now();
