@@ -117,7 +117,7 @@ test('a click gives the distances of onmesh distance', {skip}, async () => {
   const vertices = read_obj('cube.obj').flatMap(({positions}) => positions);
   const source = vertices[0];
   await live(page, 'measure_from', source);
-  onmesh('distance', 'cube.obj', '--source-point', source.join(','), '-o', 'distance.ply', '--quiet');
+  onmesh('distance', 'cube.obj', '--point', source.join(','), '-o', 'distance.ply', '--quiet');
   for (const [x, y, z, distance] of read_ply_vertices('distance.ply')) {
     const found = await page.evaluate((p) => window.onmesh.distance_at(0, p), [x, y, z]);
     assert.ok(Math.abs(found - distance) < 1e-5, `${found} instead of ${distance}`);
