@@ -1,7 +1,6 @@
 #include "distance_compare.h"
 
 #include <cmath>
-#include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +12,7 @@ namespace onmesh::tools {
 namespace {
 
 ComparedBackend measure(const std::string& name, const std::vector<double>& exact, double sigma,
+                        const FoundDistances& tell,
                         const std::function<std::vector<double>()>& distances) {
   check_interrupted();
   ComparedBackend result;
@@ -22,6 +22,7 @@ ComparedBackend measure(const std::string& name, const std::vector<double>& exac
     const std::vector<double> found = distances();
     result.seconds = watch.lap();
     result.error = distance_error(exact, found, sigma);
+    if (tell) tell(name, found);
   } catch (const InputError& error) {
     result.skipped = error.what();
   } catch (const NumericError& error) {
@@ -40,14 +41,14 @@ std::string padded(std::string text, std::size_t width) {
 std::vector<ComparedBackend> compare_backends(const TriangleMesh& mesh, const NodeSurface& surface,
                                               const DistanceSource& source,
                                               const std::vector<double>& exact, double radius,
-                                              double sigma) {
+                                              double sigma, const FoundDistances& found) {
   std::vector<ComparedBackend> backends;
   for (const DistanceMethod method : kComparedMethods) {
-    backends.push_back(measure(std::string(name_of(method)), exact, sigma, [&] {
+    backends.push_back(measure(std::string(name_of(method)), exact, sigma, found, [&] {
       return node_distances(mesh, surface, source, method, radius);
     }));
   }
-  backends.push_back(measure("euclidean", exact, sigma, [&] {
+  backends.push_back(measure("euclidean", exact, sigma, found, [&] {
     const Vec3 start = mesh.position(source.point);
     std::vector<double> straight;
     for (const SurfacePoint& node : surface.nodes.nodes)

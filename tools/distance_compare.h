@@ -1,6 +1,7 @@
 // onmesh distance --compare: errors against exact distances, of one back end or of all.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -18,12 +19,16 @@ struct ComparedBackend {
   std::string skipped;  ///< why there are no numbers, empty if there are
 };
 
+/// Takes the distances of a back end.
+using FoundDistances = std::function<void(const std::string&, const std::vector<double>&)>;
+
 /// All back ends of kComparedMethods, then straight lines through space ("euclidean").
 /// \param exact at the nodes, NaN where not known
+/// \param found called with each back end's name and distances, unless null; may throw to end it
 std::vector<ComparedBackend> compare_backends(const TriangleMesh& mesh, const NodeSurface& surface,
                                               const DistanceSource& source,
                                               const std::vector<double>& exact, double radius,
-                                              double sigma);
+                                              double sigma, const FoundDistances& found = nullptr);
 
 /// The kernel that errors are put in relation to. Infinite = none.
 struct ErrorScale {

@@ -17,6 +17,7 @@
 #include "texture_set.h"
 #include "tile_names.h"
 #include "viewer/page_writer.h"
+#include "viewer/server/serve.h"
 #include "viewer/view_page.h"
 #include "worn_textures.h"
 
@@ -26,17 +27,24 @@ Command view_command() {
   Command command;
   command.name = "view";
   command.synopsis =
-      "(MESH | --flat) -o PAGE.html | PICTURE [-t TEXTURE]... [--after TEXTURE]... [options]";
+      "(MESH | --flat) -o PAGE.html | PICTURE [-t TEXTURE]... [--after TEXTURE]... [options]\n"
+      "       onmesh view --serve MESH [-t TEXTURE]... [--port N] [options]";
   command.summary =
       "Shows the mesh with a texture, or with the textures of its own materials without -t, and\n"
       "with --after what became of them. A page that ends in .html opens in any browser and needs\n"
       "nothing else: turn the model, compare before and after, see seams, differences, distances\n"
       "and the texel under the cursor. A picture has the states beside each other, or the mesh\n"
-      "coloured by a scalar per vertex with isolines; with --flat the textures themselves.";
+      "coloured by a scalar per vertex with isolines; with --flat the textures themselves.\n"
+      "With --serve the page comes from this program, until Ctrl-C: move sliders and see the "
+      "filter's\n"
+      "result at once, click for distances, run at full resolution and save. Only this machine "
+      "is\n"
+      "answered; from another, forward the port: ssh -L 8080:127.0.0.1:8080 HOST.";
   command.examples =
       "  onmesh view cube.obj -t cube.png --after filtered.png -o page.html\n"
       "  onmesh view figure.obj --after smooth/ --after rough/ -o page.html\n"
       "  onmesh view cube.obj --distances vertex:0 --distances uv:0.2,0.6 --nodes 5% -o page.html\n"
+      "  onmesh view --serve cube.obj -t cube.png\n"
       "  onmesh view cube.obj -t cube.png --after filtered.png -o picture.png\n"
       "  onmesh view cube.obj -t cube.png --after a.png --after b.png --size 400 -o three.png\n"
       "  onmesh view figure.obj --after smooth/ -o figure.png\n"
@@ -46,6 +54,9 @@ Command view_command() {
   auto add = command.options.add_options();
   add("mesh", text());
   add("output,o", text(), "the page (.html) or picture to write");
+  add("serve", flag(),
+      "serve the page, with what it takes to try the filter, at the address printed");
+  add("port", text(), "--serve: the port, 0 to 65535 (default: any that is free)");
   add("texture,t", texts(),
       "texture for all faces; several, or a name with <UDIM> or {material}, for those that wear "
       "them (default: what the mesh's materials name)");
@@ -115,6 +126,21 @@ RenderOptions render_options(const Arguments& arguments) {
   return options;
 }
 
+/// What a page has controls for, so that only pictures take it.
+constexpr const char* kOfPictures[] = {"flat",      "distance-ply",  "size",
+                                       "height",    "supersampling", "no-light",
+                                       "wireframe", "face-materials"};
+
+void check_serving(const Arguments& arguments) {
+  for (const char* const name : {"output", "after", "distances", "samples", "nodes"}) {
+    if (arguments.given(name)) throw UsageError(dashed(name) + ": not with --serve");
+  }
+  for (const char* const name : kOfPictures) {
+    if (arguments.given(name))
+      throw UsageError(dashed(name) + ": only for pictures; the page has controls of its own");
+  }
+}
+
 void check_combination(const Arguments& arguments) {
   arguments.refuse_together("distance-ply", {"texture", "after", "face-materials", "wrap"});
   arguments.refuse_together("face-materials", {"texture", "after", "wrap"});
@@ -131,8 +157,7 @@ void check_combination(const Arguments& arguments) {
     if (!page && arguments.given(name))
       throw UsageError(dashed(name) + ": only for a page: -o PAGE.html");
   }
-  for (const char* name : {"flat", "distance-ply", "size", "height", "supersampling", "no-light",
-                           "wireframe", "face-materials"}) {
+  for (const char* const name : kOfPictures) {
     if (page && arguments.given(name))
       throw UsageError(dashed(name) + ": only for pictures; the page has controls of its own");
   }
@@ -260,6 +285,12 @@ std::vector<Image> model_pictures(const std::string& path, const Arguments& argu
 }  // namespace
 
 int run_view(const Arguments& arguments) {
+  if (arguments.flag("serve")) {
+    check_serving(arguments);
+    arguments.argument("mesh");
+    serve_view(arguments, render_options(arguments));
+  }
+  if (arguments.given("port")) throw UsageError("--port: only with --serve");
   const std::string output = arguments.text("output");
   const RenderOptions options = render_options(arguments);
   check_combination(arguments);

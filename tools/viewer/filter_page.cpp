@@ -10,17 +10,10 @@
 #include "onmesh/image/colour_space.h"
 #include "onmesh/render/render.h"
 #include "review.h"
+#include "review_maps.h"
 
 namespace onmesh::tools {
 namespace {
-
-/// As it is in the file: integers are rounded there.
-void round_to_codes(Image& image) {
-  const int levels = levels_of(image);
-  if (levels == 0) return;
-  for (float& value : image.pixels)
-    value = float(std::round(std::clamp(double(value), 0.0, 1.0) * levels) / levels);
-}
 
 /// What was written; the results themselves where they are inside a mesh file.
 void read_back(const SurfaceInputs& inputs, const Destination& to, std::vector<Image>& results) {
@@ -35,34 +28,6 @@ void read_back(const SurfaceInputs& inputs, const Destination& to, std::vector<I
     texture.path = path;
     texture.content = nullptr;
     results[i] = read_texture(texture, told_before);
-  }
-}
-
-/// Maps on the faces of the first one. Others are noted.
-void add_maps(const SurfaceInputs& inputs, std::vector<Image> results, Review& review) {
-  const InputMap& first = inputs.maps[0];
-  review.tile_of_face = first.tile_of_face;
-  for (std::size_t t = 0; t < first.count; ++t) {
-    const SetTexture& texture = inputs.set.textures[t];
-    const std::string name =
-        texture.udim > 0 ? std::to_string(texture.udim) : texture.path.filename().string();
-    review.tiles.push_back({name, texture.column(), texture.row()});
-  }
-  for (const InputMap& map : inputs.maps) {
-    if (map.has_own_uvs || map.tile_of_face != first.tile_of_face) {
-      review.notes.push_back(map.name + ": is on other faces or UVs than " + first.name +
-                             " and not shown");
-      continue;
-    }
-    ReviewMap& shown = review.maps.emplace_back();
-    shown.name = map.name;
-    shown.space = inputs.spaces[map.first].name;
-    shown.after.emplace_back();
-    for (std::size_t i = map.first; i < map.first + map.count; ++i) {
-      shown.files.push_back(inputs.set.textures[i].path.filename().string());
-      shown.before.push_back(inputs.images[i]);
-      shown.after[0].push_back(std::move(results[i]));
-    }
   }
 }
 
@@ -136,7 +101,7 @@ void write_filter_page(const std::string& path, const Arguments& arguments,
   review.after_names = {std::filesystem::path(arguments.text("output")).filename().string()};
   if (!inputs.maps.empty()) {
     read_back(inputs, to, results);
-    add_maps(inputs, std::move(results), review);
+    add_input_maps(inputs, {std::move(results)}, review);
     review.tables = {table_of_run(arguments, report, seconds), table_of_stages(report)};
   }
   write_review(path, std::move(review));

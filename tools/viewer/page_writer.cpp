@@ -6,7 +6,9 @@
 #include <bit>
 #include <fstream>
 #include <new>
+#include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "built_page.h"
 #include "onmesh/base/atomic_file.h"
@@ -18,12 +20,13 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "blocks are little-endian");
 
-std::string compress(std::span<const std::byte> bytes) {
+std::string compress(std::span<const std::byte> bytes, PageWriter::Effort effort) {
   // Beyond that the best compression takes longer than it is worth.
   constexpr std::size_t kLarge = std::size_t(16) << 20;
+  const bool is_quick = effort == PageWriter::Effort::quick;
   uLongf size = compressBound(uLong(bytes.size()));
   std::string out(size, '\0');
-  const int level = bytes.size() > kLarge ? 3 : 6;
+  const int level = is_quick ? 1 : bytes.size() > kLarge ? 3 : 6;
   const int result =
       compress2(reinterpret_cast<Bytef*>(out.data()), &size,
                 reinterpret_cast<const Bytef*>(bytes.data()), uLong(bytes.size()), level);
@@ -62,6 +65,24 @@ std::string escape(const std::string& json) {
     }
   }
   return out;
+}
+
+std::string json_text(const nlohmann::json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+void write_page(const nlohmann::json& scene, const std::vector<std::string>& blocks,
+                std::ostream& out) {
+  const std::string_view page = built_page();
+  constexpr std::string_view kMark = "<!-- onmesh data -->";
+  const std::size_t at = page.find(kMark);
+  out << page.substr(0, at) << "<script type=\"application/json\" id=\"onmesh-scene\">"
+      << escape(json_text(scene)) << "</script>\n";
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    out << "<script type=\"application/octet-stream\" id=\"onmesh-block-" << i << "\">" << blocks[i]
+        << "</script>\n";
+  }
+  out << page.substr(at + kMark.size());
 }
 
 }  // namespace
@@ -109,27 +130,35 @@ nlohmann::json PageWriter::add_rows(std::vector<std::byte> bytes, const char* ty
 
 nlohmann::json PageWriter::add_bytes(std::span<const std::byte> bytes, const char* type,
                                      std::size_t count) {
-  blocks_.push_back(base64(compress(bytes)));
+  blocks_.push_back(base64(compress(bytes, effort_)));
   return {{"block", blocks_.size() - 1}, {"type", type}, {"count", count}, {"filter", "none"}};
 }
 
 void PageWriter::write(const std::filesystem::path& path, const nlohmann::json& scene) const {
-  const std::string_view page = built_page();
-  constexpr std::string_view kMark = "<!-- onmesh data -->";
-  const std::size_t at = page.find(kMark);
   AtomicFile file(path);
   std::ofstream out(file.temporary(), std::ios::binary);
-  out << page.substr(0, at) << "<script type=\"application/json\" id=\"onmesh-scene\">"
-      << escape(scene.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
-      << "</script>\n";
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    out << "<script type=\"application/octet-stream\" id=\"onmesh-block-" << i << "\">"
-        << blocks_[i] << "</script>\n";
-  }
-  out << page.substr(at + kMark.size());
+  write_page(scene, blocks_, out);
   out.close();
   if (!out) throw FileError(path.string() + ": cannot be written");
   file.commit();
+}
+
+std::string PageWriter::page(const nlohmann::json& scene) const {
+  std::ostringstream out;
+  write_page(scene, blocks_, out);
+  return std::move(out).str();
+}
+
+std::string PageWriter::answer(const nlohmann::json& part) const {
+  std::string text = "{\"part\":" + json_text(part);
+  text += ",\"blocks\":[";
+  for (const std::string& block : blocks_) {
+    if (&block != blocks_.data()) text += ',';
+    text += '"';
+    text += block;
+    text += '"';
+  }
+  return text + "]}";
 }
 
 }  // namespace onmesh::tools

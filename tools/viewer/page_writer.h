@@ -18,6 +18,14 @@ bool is_page_name(const std::string& path);
 /// by what add() returns.
 class PageWriter {
  public:
+  /// How blocks are compressed.
+  enum class Effort {
+    small,  ///< for files
+    quick,  ///< for what is looked at once
+  };
+
+  explicit PageWriter(Effort effort = Effort::small) : effort_(effort) {}
+
   nlohmann::json add(std::span<const std::uint8_t> values);
   nlohmann::json add(std::span<const std::int8_t> values);
   nlohmann::json add(std::span<const std::uint16_t> values);
@@ -35,10 +43,16 @@ class PageWriter {
   /// \param scene refers to the arrays added
   /// \throw FileError if it cannot be written
   void write(const std::filesystem::path& path, const nlohmann::json& scene) const;
+  /// The text of that file.
+  std::string page(const nlohmann::json& scene) const;
+  /// What a page that is open gets from its server: a part of the scene and the blocks that it
+  /// refers to, as JSON.
+  std::string answer(const nlohmann::json& part) const;
 
  private:
   nlohmann::json add_bytes(std::span<const std::byte> bytes, const char* type, std::size_t count);
 
+  Effort effort_;
   std::vector<std::string> blocks_;  ///< zlib streams in base64
 };
 

@@ -11,16 +11,13 @@
 #include "scene_surface.h"
 
 namespace onmesh::tools {
-namespace {
 
-/// Per face of the cleaned mesh what its face in the file has.
 std::vector<Index> tiles_of_cleaned(const Review& review) {
   std::vector<Index> tiles;
   for (const Index f : review.mesh->cleaning.kept) tiles.push_back(review.tile_of_face[f]);
   return tiles;
 }
 
-/// Which texel of a map lies where; null, with a note, if that cannot be told.
 std::unique_ptr<TexelMap> texels_of(const Review& review, const ReviewMap& map,
                                     const TriangleMesh& mesh, const std::vector<Index>& tiles,
                                     std::vector<std::string>& notes) {
@@ -42,6 +39,8 @@ std::unique_ptr<TexelMap> texels_of(const Review& review, const ReviewMap& map,
     return nullptr;
   }
 }
+
+namespace {
 
 nlohmann::json scene_camera(const RenderOptions& camera) {
   nlohmann::json json{{"azimuth", camera.azimuth_degrees},
@@ -94,8 +93,7 @@ void add_textures(const Review& review, PageWriter& page, nlohmann::json& scene,
 
 }  // namespace
 
-void write_review(const std::filesystem::path& path, Review review) {
-  PageWriter page;
+nlohmann::json make_scene(Review review, PageWriter& page) {
   std::vector<std::string> notes = std::move(review.notes);
   nlohmann::json scene;
   scene["version"] = 1;
@@ -120,8 +118,14 @@ void write_review(const std::filesystem::path& path, Review review) {
   scene["fields"] = scene_fields(review, page);
   scene["numbers"] = scene_tables(review.tables);
   scene["notes"] = notes;
+  if (!review.live.is_null()) scene["live"] = std::move(review.live);
   check_interrupted();
-  page.write(path, scene);
+  return scene;
+}
+
+void write_review(const std::filesystem::path& path, Review review) {
+  PageWriter page;
+  page.write(path, make_scene(std::move(review), page));
 }
 
 }  // namespace onmesh::tools

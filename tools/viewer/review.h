@@ -1,6 +1,7 @@
 // What a review page shows, before it becomes one.
 #pragma once
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -61,7 +62,20 @@ struct Review {
   bool shows_nodes = false;
   std::vector<ReviewDistances> distances;
   std::vector<ReviewTable> tables;
+  nlohmann::json live;  ///< what a page needs that has a server, see server/live_session.h
 };
+
+/// Per face of the cleaned mesh the tile that its face in the file has.
+std::vector<Index> tiles_of_cleaned(const Review& review);
+
+/// Which texel of a map lies where; null, with a note, if that cannot be told.
+/// \param mesh the cleaned one, with UVs of each face's own tile \param tiles of its faces
+std::unique_ptr<TexelMap> texels_of(const Review& review, const ReviewMap& map,
+                                    const TriangleMesh& mesh, const std::vector<Index>& tiles,
+                                    std::vector<std::string>& notes);
+
+/// The scene of the page, with its arrays.
+nlohmann::json make_scene(Review review, PageWriter& page);
 
 /// Write the page.
 /// \throw FileError if it cannot be written

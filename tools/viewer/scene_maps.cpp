@@ -79,28 +79,6 @@ nlohmann::json add_image(const Image& image, int levels, PageWriter& page) {
   return add(bytes_of<float>(image.pixels, [](float v) { return v; }), "f32", 4);
 }
 
-/// Null for an image that got lost.
-nlohmann::json scene_image(const Image& image, const std::string& file, PageWriter& page,
-                           std::vector<std::string>& notes) {
-  if (image.pixels.empty()) return {};
-  const int levels = levels_of(image);
-  const int longest = std::max(image.width, image.height);
-  const int factor = (longest + kMostTexels - 1) / kMostTexels;
-  Image scaled;
-  if (factor > 1) scaled = scaled_down(image, factor);
-  const Image& shown = factor > 1 ? scaled : image;
-  if (factor > 1)
-    notes.push_back(file + " is shown at " + size_text(shown) + " instead of " + size_text(image));
-  nlohmann::json json = add_image(shown, levels, page);
-  json["width"] = shown.width;
-  json["height"] = shown.height;
-  json["channels"] = shown.channels;
-  json["alpha"] = shown.alpha_channel;
-  json["full_width"] = image.width;
-  json["full_height"] = image.height;
-  return json;
-}
-
 /// Of the finite values of all channels but alpha.
 std::pair<double, double> range_of(const ReviewMap& map) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -144,6 +122,27 @@ std::vector<std::string> channel_names(const Image& image) {
 }
 
 }  // namespace
+
+nlohmann::json scene_image(const Image& image, const std::string& file, PageWriter& page,
+                           std::vector<std::string>& notes) {
+  if (image.pixels.empty()) return {};
+  const int levels = levels_of(image);
+  const int longest = std::max(image.width, image.height);
+  const int factor = (longest + kMostTexels - 1) / kMostTexels;
+  Image scaled;
+  if (factor > 1) scaled = scaled_down(image, factor);
+  const Image& shown = factor > 1 ? scaled : image;
+  if (factor > 1)
+    notes.push_back(file + " is shown at " + size_text(shown) + " instead of " + size_text(image));
+  nlohmann::json json = add_image(shown, levels, page);
+  json["width"] = shown.width;
+  json["height"] = shown.height;
+  json["channels"] = shown.channels;
+  json["alpha"] = shown.alpha_channel;
+  json["full_width"] = image.width;
+  json["full_height"] = image.height;
+  return json;
+}
 
 nlohmann::json scene_map(const Review& review, const ReviewMap& map, PageWriter& page,
                          std::vector<std::string>& notes) {

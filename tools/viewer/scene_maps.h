@@ -8,6 +8,11 @@
 
 namespace onmesh::tools {
 
+/// An image as the file's codes; null for one that got lost.
+/// \param file for notes
+nlohmann::json scene_image(const Image& image, const std::string& file, PageWriter& page,
+                           std::vector<std::string>& notes);
+
 /// A map with its images: integers as they are in the file, others as floats. Images that are
 /// larger than a page should hold are scaled down.
 /// \param notes receive what is scaled, missing or does not fit

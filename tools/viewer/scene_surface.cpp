@@ -27,21 +27,6 @@ void append(const Point& p, std::vector<float>& values) {
 /// \param side 3 * face + edge
 std::pair<std::size_t, std::size_t> ends(Index side) { return {side % 3, (side % 3 + 1) % 3}; }
 
-/// The errors of a map's images, one per seam; unknown where an image is missing.
-std::vector<float> errors_of(const std::vector<Image>& images, const TriangleMesh& mesh,
-                             const TexelMap& map, std::size_t seams) {
-  std::vector<float> errors(seams, kUnknown);
-  std::vector<const Image*> pointers;
-  for (const Image& image : images) pointers.push_back(&image);
-  try {
-    const std::vector<MeasuredSeam> measured = measure_seams(mesh, map, pointers);
-    for (std::size_t i = 0; i < seams; ++i) errors[i] = float(std::sqrt(measured[i].mean_square));
-  } catch (const InputError&) {
-    // An image that is lost, or of another size: scene_map() notes it.
-  }
-  return errors;
-}
-
 /// The part of a node face's edge that lies within an input face, by barycentric coordinates there.
 struct EdgePart {
   Vec3 from, to;
@@ -141,27 +126,21 @@ double round_step(double range) {
   return power * (digits < 1.5 ? 1 : digits < 3.5 ? 2 : digits < 7.5 ? 5 : 10);
 }
 
-nlohmann::json layer(const ReviewDistances& distances, const std::vector<NodePoint>& places,
-                     const NodeMesh& nodes, PageWriter& page) {
-  std::vector<float> values;
-  double farthest = 0;
-  for (const NodePoint& place : places) {
-    const double d =
-        place.face == kNone ? double(kUnknown) : distance_at(nodes, place, distances.at_nodes);
-    values.push_back(float(d));
-    if (std::isfinite(d)) farthest = std::max(farthest, d);
-  }
-  const Vec3& p = distances.source;
-  return {{"name", distances.name},
-          {"values", page.add(values)},
-          {"min", 0},
-          {"max", farthest},
-          {"unit", "mesh units"},
-          {"source", {p.x(), p.y(), p.z()}},
-          {"step", round_step(farthest)}};
-}
-
 }  // namespace
+
+std::vector<float> seam_errors(const std::vector<Image>& images, const TriangleMesh& mesh,
+                               const TexelMap& map, std::size_t seams) {
+  std::vector<float> errors(seams, kUnknown);
+  std::vector<const Image*> pointers;
+  for (const Image& image : images) pointers.push_back(&image);
+  try {
+    const std::vector<MeasuredSeam> measured = measure_seams(mesh, map, pointers);
+    for (std::size_t i = 0; i < seams; ++i) errors[i] = float(std::sqrt(measured[i].mean_square));
+  } catch (const InputError&) {
+    // An image that is lost, or of another size: scene_map() notes it.
+  }
+  return errors;
+}
 
 nlohmann::json scene_seams(const Review& review, const TriangleMesh& mesh,
                            const std::vector<const TexelMap*>& maps, PageWriter& page) {
@@ -189,7 +168,7 @@ nlohmann::json scene_seams(const Review& review, const TriangleMesh& mesh,
     nlohmann::json states = nlohmann::json::array();
     const auto add = [&](const std::vector<Image>& images) {
       const bool is_known = maps[m] != nullptr;
-      states.push_back(page.add(is_known ? errors_of(images, mesh, *maps[m], seams.size())
+      states.push_back(page.add(is_known ? seam_errors(images, mesh, *maps[m], seams.size())
                                          : std::vector<float>(seams.size(), kUnknown)));
     };
     add(review.maps[m].before);
@@ -237,29 +216,57 @@ nlohmann::json scene_nodes(const Review& review, PageWriter& page) {
           {"edges", nodes.faces.size() * 3 / 2}};
 }
 
-nlohmann::json scene_fields(const Review& review, PageWriter& page) {
-  if (review.distances.empty()) return {};
-  const TriangleMesh& mesh = review.mesh->cleaned;
+FieldSurface::FieldSurface(const TriangleMesh& mesh, const NodeSurface& surface)
+    : nodes_(surface.nodes) {
   const DividedSurface divided = divide(mesh);
   const std::vector<std::array<Vec3, 3>> corner_normals = shading_normals(mesh);
-  std::vector<float> positions;
   std::vector<Vec3> normals;
   for (const SurfacePoint& p : divided.points) {
-    append(mesh.position(p), positions);
+    append(mesh.position(p), positions_);
     const auto& n = corner_normals[p.face];
     const Vec3 &b = p.barycentric, mean = b[0] * n[0] + b[1] * n[1] + b[2] * n[2];
     normals.push_back(mean.stableNormalized());
   }
-  const OverlayLookup lookup(review.surface.overlay);
-  std::vector<NodePoint> places(divided.points.size());
-  parallel_over(places.size(),
-                [&](std::size_t i) { places[i] = lookup.locate(divided.points[i]); });
-  nlohmann::json layers = nlohmann::json::array();
+  normals_ = rounded_normals(normals);
+  indices_ = divided.indices;
+  const OverlayLookup lookup(surface.overlay);
+  places_.resize(divided.points.size());
+  parallel_over(places_.size(),
+                [&](std::size_t i) { places_[i] = lookup.locate(divided.points[i]); });
+}
+
+nlohmann::json FieldSurface::scene(PageWriter& page) const {
+  return {{"vertices", places_.size()},        {"triangles", indices_.size() / 3},
+          {"positions", page.add(positions_)}, {"normals", page.add(normals_)},
+          {"indices", page.add(indices_)},     {"layers", nlohmann::json::array()}};
+}
+
+nlohmann::json FieldSurface::layer(const ReviewDistances& distances, PageWriter& page) const {
+  std::vector<float> values;
+  double farthest = 0;
+  for (const NodePoint& place : places_) {
+    const double d =
+        place.face == kNone ? double(kUnknown) : distance_at(nodes_, place, distances.at_nodes);
+    values.push_back(float(d));
+    if (std::isfinite(d)) farthest = std::max(farthest, d);
+  }
+  const Vec3& p = distances.source;
+  return {{"name", distances.name},
+          {"values", page.add(values)},
+          {"min", 0},
+          {"max", farthest},
+          {"unit", "mesh units"},
+          {"source", {p.x(), p.y(), p.z()}},
+          {"step", round_step(farthest)}};
+}
+
+nlohmann::json scene_fields(const Review& review, PageWriter& page) {
+  if (review.distances.empty()) return {};
+  const FieldSurface surface(review.mesh->cleaned, review.surface);
+  nlohmann::json json = surface.scene(page);
   for (const ReviewDistances& distances : review.distances)
-    layers.push_back(layer(distances, places, review.surface.nodes, page));
-  return {{"vertices", divided.points.size()},    {"triangles", divided.indices.size() / 3},
-          {"positions", page.add(positions)},     {"normals", page.add(rounded_normals(normals))},
-          {"indices", page.add(divided.indices)}, {"layers", layers}};
+    json["layers"].push_back(surface.layer(distances, page));
+  return json;
 }
 
 }  // namespace onmesh::tools

@@ -43,6 +43,22 @@ export function make_api(app) {
       app.stage.finish();
       return performance.now();
     },
+    // Only where a program serves the page.
+    live: app.live && {
+      change: (name, value) => app.live.change(name, value),
+      preview: () => app.live.preview(),
+      options: () => app.live.options(),
+      measure_from: (position) => app.live.measure_from({position, on_surface: true}),
+      layers: () => app.scene.fields?.layers.map(({name}) => name) ?? [],
+      codes: async (state, tile = 0) => {
+        const image = await app.images.decoded(0, state, tile);
+        return image && {...image, codes: Array.from(image.codes)};
+      },
+      codes_reduced: async (tile = 0) => {
+        const image = await app.images.decode(app.images.source_before(0, 0, tile));
+        return {width: image.width, height: image.height, codes: Array.from(image.codes)};
+      },
+    },
     lose_context: () => app.stage.renderer.forceContextLoss(),
   });
 }

@@ -40,17 +40,46 @@ function unfilter(bytes, row, step) {
   for (let i = row; i < bytes.length; ++i) bytes[i] += bytes[i - row];
 }
 
+// Blocks that came after the page, by their numbers beyond its own. Each is read once.
+const added = new Map();
+let next_added = 1e6;
+
+/// Take up what a server answers. \return its part of a scene, which refers to the blocks
+export function adopt_blocks({part, blocks}) {
+  const first = next_added;
+  next_added += blocks.length;
+  blocks.forEach((text, i) => added.set(first + i, text));
+  const renumber = (value) => {
+    if (value === null || typeof value !== 'object') return;
+    if (typeof value.block === 'number') value.block += first;
+    Object.values(value).forEach(renumber);
+  };
+  renumber(part);
+  return part;
+}
+
+/// Let go of a block that nobody will read.
+export function drop_block(reference) {
+  added.delete(reference?.block);
+}
+
+function text_of_block(number) {
+  const text = added.get(number);
+  added.delete(number);
+  return text ?? document.getElementById(`onmesh-block-${number}`)?.textContent;
+}
+
 /// Decode what a reference of the scene means; f16 values stay 16-bit codes, see half().
 export async function read_block(reference) {
   const name = `Data block ${reference.block}`;
   const Kind = kinds[reference.type];
   if (!Kind) throw new PageError(`${name} has the unknown type ${reference.type}`);
-  const element = document.getElementById(`onmesh-block-${reference.block}`);
-  if (!element) throw new PageError(`${name} is missing`);
+  const text = text_of_block(reference.block);
+  if (text === undefined) throw new PageError(`${name} is missing`);
   const size = reference.count * Kind.BYTES_PER_ELEMENT;
   let bytes;
   try {
-    bytes = await inflate(bytes_of_base64(element.textContent), size, name);
+    bytes = await inflate(bytes_of_base64(text), size, name);
   } catch (error) {
     if (error instanceof PageError) throw error;
     throw new PageError(`${name} cannot be unpacked`);

@@ -16,7 +16,8 @@ const kReplaced = new Set([
 
 const digits = (x) => String(Number(x.toPrecision(6)));
 
-function quoted(argument) {
+/// As a shell reads it.
+export function quoted(argument) {
   if (/^[\w./,:=@%+-]+$/.test(argument)) return argument;
   return `'${argument.replaceAll("'", "'\\''")}'`;
 }

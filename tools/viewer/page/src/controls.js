@@ -3,7 +3,7 @@ import {brief} from './format.js';
 
 const form = () => document.getElementById('controls');
 
-function fill_select(name, labels) {
+export function fill_select(name, labels) {
   const select = form().elements[name];
   select.replaceChildren(...labels.map((label, i) => new Option(label, i)));
 }
@@ -18,9 +18,11 @@ function leave_out(scene) {
     exposure: scene.maps.some((map) => map.hdr || map.display?.encoding === 'linear'),
     seams: scene.seams,
     'seam-errors': scene.seams?.errors?.some((map) => map?.some((errors) => errors)),
-    samples: scene.samples,
+    samples: scene.samples || scene.live,
     nodes: scene.nodes,
-    fields: scene.fields,
+    fields: scene.fields || scene.live,
+    live: scene.live,
+    filter: scene.live && scene.maps.length > 0,
   };
   for (const [need, met] of Object.entries(has)) {
     if (met) continue;

@@ -79,6 +79,12 @@ export class Fields {
     this.values = new Map();
   }
 
+  /// The layers are others now, by their numbers.
+  forget_layers() {
+    this.values.clear();
+    this.shown = null;
+  }
+
   async load_mesh() {
     this.mesh ??= read_field_mesh(this.source);
     return this.mesh;

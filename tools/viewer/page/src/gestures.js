@@ -38,6 +38,7 @@ function listen_to_model(app) {
       app.request_draw();
     },
     point,
+    tap: (x, y) => app.live?.tap(app.pick(x, y)),
     leave: () => app.point_at(null),
     reset: () => app.reset_view(),
   });

@@ -9,7 +9,7 @@ import {
   RGFormat,
   UnsignedByteType,
 } from 'three';
-import {half, read_block} from './blocks.js';
+import {drop_block, half, read_block} from './blocks.js';
 import {PageError} from './page_error.js';
 
 const to_number = {
@@ -143,17 +143,32 @@ export class Images {
     return (state === 0 ? of?.before : of?.after?.[state - 1])?.[tile] ?? null;
   }
 
-  async decoded(map, state, tile) {
-    const image = this.source(map, state, tile);
-    if (!image) return null;
-    return this.once(`image ${image.block}`, () => DecodedImage.read(image));
+  /// What a state is compared with: where that has fewer texels, the state before has, too.
+  source_before(map, after, tile) {
+    return this.scene.afters[after]?.reduced?.[tile] ?? this.source(map, 0, tile);
   }
 
-  async texture(map, state, tile) {
-    const image = await this.decoded(map, state, tile);
+  decoded(map, state, tile) {
+    return this.decode(this.source(map, state, tile));
+  }
+
+  texture(map, state, tile) {
+    return this.upload(this.source(map, state, tile));
+  }
+
+  texture_before(map, after, tile) {
+    return this.upload(this.source_before(map, after, tile));
+  }
+
+  async decode(source) {
+    if (!source) return null;
+    return this.once(`image ${source.block}`, () => DecodedImage.read(source));
+  }
+
+  async upload(source) {
+    const image = await this.decode(source);
     if (!image) return null;
-    const {block} = this.source(map, state, tile);
-    return this.once(`texture ${block}`, () => {
+    return this.once(`texture ${source.block}`, () => {
       const {texture, step} = image.texture(this.largest);
       if (step > 1) {
         this.notes.add(
@@ -166,7 +181,8 @@ export class Images {
   }
 
   async difference(map, after, tile) {
-    const [a, b] = await Promise.all([0, after + 1].map((s) => this.decoded(map, s, tile)));
+    const sources = [this.source_before(map, after, tile), this.source(map, after + 1, tile)];
+    const [a, b] = await Promise.all(sources.map((source) => this.decode(source)));
     if (!Difference.comparable(a, b)) return null;
     return this.once(`difference ${map} ${after} ${tile}`, () => new Difference(a, b));
   }
@@ -176,6 +192,30 @@ export class Images {
     if (!difference) return null;
     const key = `difference texture ${map} ${after} ${tile}`;
     return this.once(key, () => difference.texture(this.largest));
+  }
+
+  forget(key) {
+    const made = this.kept.get(key);
+    this.kept.delete(key);
+    Promise.resolve(made).then(
+      (value) => value?.dispose?.(),
+      () => {},
+    );
+  }
+
+  /// Other images of a state after. \param images per tile
+  replace(map, after, images) {
+    (this.scene.maps[map].after[after] ?? []).forEach((old, tile) => {
+      if (old) {
+        drop_block(old);
+        this.forget(`texture ${old.block}`);
+        this.forget(`image ${old.block}`);
+      }
+      this.forget(`difference texture ${map} ${after} ${tile}`);
+      this.forget(`difference ${map} ${after} ${tile}`);
+    });
+    this.forget(`numbers ${map} ${after}`);
+    this.scene.maps[map].after[after] = images;
   }
 
   /// Over all tiles. \return {max, rms, psnr_db, largest_texel} or null if no two images compare

@@ -22,9 +22,12 @@ async function dress(material, app, tile, colour, light) {
     shown.exposure = app.exposed() ? 2 ** state.exposure : 1;
   }
   if (map && colour === 'texture') {
-    const [before, after] = await Promise.all(
-      [0, state.after + 1].map((s) => images.texture(state.map, s, tile)),
-    );
+    const [before, after] = await Promise.all([
+      state.compare === 'before'
+        ? images.texture(state.map, 0, tile)
+        : images.texture_before(state.map, state.after, tile),
+      images.texture(state.map, state.after + 1, tile),
+    ]);
     Object.assign(shown, {has_before: before !== null, has_after: after !== null});
     if (before) shown.before_map = before;
     if (after) shown.after_map = after;

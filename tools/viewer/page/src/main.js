@@ -1,6 +1,7 @@
 // Starts the page; whatever goes wrong becomes a sentence in it.
 import {make_api} from './api.js';
 import {App} from './app.js';
+import {Live} from './live.js';
 import {set_up_controls} from './controls.js';
 import {set_up_gestures} from './gestures.js';
 import {PageError} from './page_error.js';
@@ -51,6 +52,7 @@ async function start() {
     const app = new App(scene, await read_mesh(scene), stage, report);
     stage.canvas.addEventListener('webglcontextrestored', () => app.refresh());
     set_up_controls(scene, (changes) => app.set(changes).catch(() => {}));
+    if (scene.live) app.live = new Live(app);
     app.show_theme();
     app.show_panes();
     app.fit();
@@ -58,6 +60,7 @@ async function start() {
     set_up_gestures(app);
     await app.refresh();
     make_api(app);
+    app.live?.start().catch((error) => app.live.fail(error));
   } catch (error) {
     report(error);
     hide_picture();

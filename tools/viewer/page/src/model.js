@@ -57,6 +57,12 @@ export class Model {
     this.lines = new Set();
   }
 
+  /// Distances that the scene has got since.
+  take_fields() {
+    if (this.fields?.object) this.group.remove(this.fields.object);
+    this.fields = new Fields(this.scene.fields, this.ramp);
+  }
+
   make_surface() {
     const {mesh} = this;
     const geometry = new BufferGeometry();
@@ -88,8 +94,16 @@ export class Model {
     this.nodes ??= this.add_lines(await read_block(this.scene.nodes.segments), kNode);
   }
 
+  /// Other samples than before, to be loaded when they are shown.
+  forget_samples() {
+    if (!this.samples) return;
+    this.group.remove(this.samples);
+    this.samples.geometry.dispose();
+    this.samples = null;
+  }
+
   async load_samples() {
-    if (this.samples) return;
+    if (this.samples || !this.scene.samples) return;
     const geometry = new BufferGeometry();
     const positions = await read_block(this.scene.samples.positions);
     geometry.setAttribute('position', new BufferAttribute(positions, 3));

@@ -6,7 +6,7 @@ const kKeyPan = 0.05; // of the height
 const kKeyZoom = 1.2;
 
 /// \param handlers orbit(right, up) in degrees, pan(right, up) in heights of the pane, zoom(factor,
-///   x, y) and point(x, y) in CSS pixels of the pane, leave(), reset()
+///   x, y), point(x, y) and, for clicks, tap(x, y) in CSS pixels of the pane, leave(), reset()
 export function listen(pane, handlers) {
   const fingers = new Map();
   let travelled = 0;
@@ -53,6 +53,7 @@ export function listen(pane, handlers) {
     if (fingers.delete(event.pointerId) && tap) {
       const {x, y} = place(event);
       handlers.point(x, y);
+      handlers.tap?.(x, y);
     }
   };
   pane.addEventListener('pointerup', up);

@@ -59,6 +59,7 @@ export function valid_changes(scene, state, changes) {
     Object.entries(changes).filter(([name, value]) => {
       if (!(name in state) || typeof value !== typeof state[name]) return false;
       if (name in counts) return Number.isInteger(value) && value >= 0 && value < counts[name];
+      if (name === 'colour' && value === 'distance') return Boolean(scene.fields);
       if (name in kinds) return kinds[name].includes(value);
       return typeof value !== 'number' || Number.isFinite(value);
     }),
