@@ -2,7 +2,8 @@
 export default async function* lines(source) {
   const count = {ok: 0, failed: 0, skipped: 0};
   for await (const {type, data} of source) {
-    if (type === 'test:diagnostic' && data.nesting > 0) yield `  ${data.message}\n`;
+    const summary = /^(tests|suites|pass|fail|cancelled|skipped|todo|duration_ms) /;
+    if (type === 'test:diagnostic' && !summary.test(data.message)) yield `  ${data.message}\n`;
     if (type !== 'test:pass' && type !== 'test:fail') continue;
     // A file is a test of its own, which only matters when it could not be run.
     if (data.name.endsWith('.test.mjs') && type === 'test:pass') continue;

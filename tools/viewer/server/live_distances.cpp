@@ -15,9 +15,13 @@ namespace {
 
 constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 
-/// "unfold from (0.5, 1, 0)"
+/// "distance by unfold from (0.5, 1, 0)"
 std::string layer_name(const std::string& backend, const Vec3& p) {
-  std::string name = backend;
+  std::string name = "distance";
+  if (backend != "auto") {
+    name += " by ";
+    name += backend;
+  }
   for (int k = 0; k < 3; ++k) {
     name += k == 0 ? " from (" : ", ";
     name += format_number(p[k]);

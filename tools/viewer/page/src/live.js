@@ -35,6 +35,7 @@ export class Live {
     this.has_run = false;
     by_id('why').textContent = this.live.why_no_textures ? `${this.live.why_no_textures}.` : '';
     by_id('why').hidden = !this.live.why_no_textures;
+    document.getElementById('layers').hidden = !app.scene.fields;
     set_up_panel(this.live, (name, value) => this.change(name, value));
     this.listen();
   }
@@ -268,6 +269,7 @@ export class Live {
       model.fields.forget_layers();
     }
     all.push(...layers);
+    document.getElementById('layers').hidden = false;
     fill_select('layer', all.map(({name}) => name));
     const layer = first_new;
     const step = model.fields.natural_step(layer);
