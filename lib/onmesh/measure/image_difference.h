@@ -27,10 +27,9 @@ ImageDifference difference(const Image& a, const Image& b,
 /// Which texels of a tile are covered, for difference().
 std::vector<unsigned char> covered_texels(const TexelMap& map, Index tile = 0);
 
-/// That of several pairs of images, all texels counted alike, however many channels they have. The worst
-/// texel is that of the pair with the largest maximum, the first if several have it.
-/// \param which receives the number of that pair
-/// \pre there are some
+/// That of several pairs of images, all texels counted alike, however many channels they have. The
+/// worst texel is that of the pair with the largest maximum, the first if several have it. \param
+/// which receives the number of that pair \pre there are some
 ImageDifference together(const std::vector<ImageDifference>& parts, std::size_t* which = nullptr);
 
 }  // namespace onmesh
