@@ -258,7 +258,7 @@ test('how long a move of a slider takes', {skip}, async (t) => {
         async (n, v) => {
           const began = performance.now();
           await window.onmesh.live.change(n, v);
-          return window.onmesh.finished() - began;
+          return window.onmesh.live.settled() - began;
         },
         name,
         value,

@@ -46,6 +46,11 @@ export function make_api(app) {
     // Only where a program serves the page.
     live: app.live && {
       change: (name, value) => app.live.change(name, value),
+      // Waits for the graphics card to draw what is under way, without drawing it again.
+      settled: () => {
+        app.stage.finish();
+        return performance.now();
+      },
       preview: () => app.live.preview(),
       options: () => app.live.options(),
       measure_from: (position) => app.live.measure_from({position, on_surface: true}),
