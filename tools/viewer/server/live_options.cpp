@@ -78,8 +78,9 @@ std::vector<std::string> words_of(const nlohmann::json& options) {
       }
       continue;
     }
-    const auto known = std::find_if(std::begin(kOptions), std::end(kOptions),
-                                    [&](const auto& option) { return name == option.first; });
+    const auto known =
+        std::find_if(std::begin(kOptions), std::end(kOptions),
+                     [&, &key = name](const auto& option) { return key == option.first; });
     if (known == std::end(kOptions)) throw UsageError(name + ": is no option of this window");
     std::string word = dashed(known->second);
     word += '=';
